@@ -3,7 +3,7 @@
 PREFIX ?= /usr/local
 JOBS ?= $(shell nproc)
 PACKAGES = tools/install-packages.sh
-C_FILES = $(shell find src include tests bench docs examples tools lab -name node_modules -prune -o \( -name '*.[ch]' -o -name '*.inl' -o -name '*.cpp' \) -print)
+C_FILES = $(shell find src paper include tests bench docs examples tools lab -name node_modules -prune -o \( -name '*.[ch]' -o -name '*.inl' -o -name '*.cpp' \) -print)
 
 .PHONY: build demo lab test test-long reliability mutants bench install deb docs python-docs format check-format clean help
 
@@ -43,7 +43,7 @@ mutants: ## put faults into the code, one at a time, and count which ones the te
 	@$(PACKAGES) test
 	@python3 tests/mutants/run.py --write -j $(JOBS)
 
-CAMPAIGNS = kills rot power faults fuzz
+CAMPAIGNS = kills rot power faults whole fuzz
 
 reliability: ## attack what must not be lost, at full length; write docs/reliability.md
 	@$(PACKAGES) test-long

@@ -1,5 +1,5 @@
-/* bench_dry.c - dry friction: what a drive period costs by either method at a given error of <r>, and a basin's
- * trajectory alone and in lanes.
+/* bench_dry.c - dry friction: what a drive period costs at a given error of <r>, and a basin's trajectory alone
+ * and in lanes.
  *
  * At mu = 0.2 and 10.7 Hz, the bead's periodic motion of three captures a return.  Processor time of one
  * thread. */
@@ -47,38 +47,16 @@ static double timed_run(const fst_params *p, int rounds, double *least)
     return result.mean_r;
 }
 
-static void by_events(double exact)
+static void alone(double exact)
 {
     static const double rtol[] = {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
-    (void)puts("events:     run.rtol   error of <r>   ms a drive period");
+    (void)puts("            run.rtol   error of <r>   ms a drive period");
     for (size_t i = 0; i < sizeof rtol / sizeof *rtol; ++i) {
         fst_params p = dry_bead();
         double time;
         p.run_rtol = rtol[i];
         const double off = timed_run(&p, ROUNDS, &time) - exact;
         (void)printf("            %-8.0e   %-12.1e   %.3f\n", rtol[i], fabs(off), 1e3 * time / PERIODS);
-    }
-}
-
-static void by_splitting(double exact)
-{
-    static const double step[] = {0.16, 0.08, 0.04, 0.02, 0.0125, 0.01, 0.005, 0.0025};
-    double before = NAN, time_before = NAN;
-    (void)puts("splitting:  run.step   error of <r>   ms a drive period   with half the step, extrapolated");
-    for (size_t i = 0; i < sizeof step / sizeof *step; ++i) {
-        fst_params p = dry_bead();
-        double time;
-        p.run_method = FST_METHOD_SPLITTING;
-        p.run_step = step[i];
-        const double mean = timed_run(&p, ROUNDS, &time);
-        (void)printf("            %-8.4g   %-12.1e   %-17.3f", step[i], fabs(mean - exact),
-                     1e3 * time / PERIODS);
-        if (i > 0 && step[i] == 0.5 * step[i - 1])
-            (void)printf("   error %.1e, %.3f ms", fabs((4 * mean - before) / 3 - exact),
-                         1e3 * (time + time_before) / PERIODS);
-        (void)puts("");
-        before = mean;
-        time_before = time;
     }
 }
 
@@ -158,17 +136,11 @@ int main(void)
     p.run_discard = 150.0;
     const double exact = timed_run(&p, 1, &time);
     (void)printf("dry friction, mu = 0.2, 10.7 Hz: <r> = %.12f\n", exact);
-    by_events(exact);
-    by_splitting(exact);
-    p = dry_bead();
-    p.run_method = FST_METHOD_SPLITTING;
-    p.run_step = 0.0125;
-    (void)printf("a basin's trajectories: %g drive periods, %d starts, by splitting, run.step = %g\n", PERIODS,
-                 (int)BASIN, p.run_step);
-    basins(&p, exact);
+    alone(exact);
     p = dry_bead();
     for (p.run_rtol = 1e-5; p.run_rtol > 1e-11; p.run_rtol *= 1e-3) {
-        (void)printf("the same by events, run.rtol = %.0e\n", p.run_rtol);
+        (void)printf("a basin's trajectories: %g drive periods, %d starts, run.rtol = %.0e\n", PERIODS,
+                     (int)BASIN, p.run_rtol);
         basins(&p, exact);
     }
     return 0;

@@ -143,7 +143,7 @@ static int prepare(dry_job *job, double *mean_r)
         fst_model_new(&smooth, &job->smooth, NULL) != FST_OK ||
         fst_start_state(&job->params, job->model, job->start, NULL) != FST_OK)
         return 0;
-    job->drive_period = TWO_PI / job->model->coefficients.omega;
+    job->drive_period = TWO_PI / job->model->world.omega;
     *mean_r = mean_at(job, 1e-13, 400.0, job->start);
     *mean_r = mean_at(job, 1e-13, 100.0, job->start);
     return isfinite(*mean_r);

@@ -18,7 +18,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
-#include "lanes/final_states.h"
+#include "final_states.h"
 #include "opponents_job.h"
 #include "opponents_model.h"
 #include "reference.h"
@@ -63,7 +63,7 @@ static int by_scalar(const solver *self, const int *which, int count, double tol
         fst_stop stop;
         const job_trajectory *trajectory = trajectories[which[i]];
         fst_flow *flow = flow_of(trajectory, tolerance);
-        good = flow && fst_flow_advance(flow, job_end_time(trajectory), 0, &stop, NULL) == FST_OK;
+        good = flow && fst_flow_next(flow, job_end_time(trajectory), 0, &stop, NULL) == FST_OK;
         if (good)
             memcpy(ends[i], fst_flow_get(flow).state, sizeof ends[i]);
         fst_flow_free(flow);

@@ -1,5 +1,5 @@
 /* bench_orbit.c - how long orbits and branches take: one orbit with multipliers from a cold start, and the
- * whole counter-rotating branch with all its special points.  tests/test_auto.py, run by the target `bench`
+ * whole counter-rotating branch with all its special points.  tests/orbit/test_auto.py, run by the target `bench`
  * after this, lets AUTO-07p follow the same branches and prints both programs' times. */
 #include <stdio.h>
 #include <stdlib.h>

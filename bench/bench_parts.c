@@ -68,7 +68,7 @@ static void place_of(int n, double *x, double *y)
     *y = -1.5 + 3.0 * ((n * 0.41421356237309505) - (int)(n * 0.41421356237309505));
 }
 
-static double seconds_of_textbook(const fst_coefficients_double *c)
+static double seconds_of_textbook(const fst_world_double *c)
 {
     const fst_part_double *part = &c->source.parts.part[0];
     const double u[3] = {0.6, -0.48, 0.64};
@@ -80,7 +80,7 @@ static double seconds_of_textbook(const fst_coefficients_double *c)
         for (int i = 0; i < PLACES; ++i) {
             double d[3], b[3], g[3][3];
             place_of(i, &d[0], &d[1]);
-            d[2] = c->source.parts.height;
+            d[2] = c->height;
             textbook(part->half, part->j, d, b, g);
             for (int k = 0; k < 3; ++k)
                 sum += b[k] + g[k][0] * u[0] + g[k][1] * u[1] + g[k][2] * u[2];
@@ -95,7 +95,7 @@ static double seconds_of_textbook(const fst_coefficients_double *c)
 
 /* ------------------------------------------------------------------ ours */
 
-static double seconds_of_single(const fst_coefficients_double *c)
+static double seconds_of_single(const fst_world_double *c)
 {
     const double u[3] = {0.6, -0.48, 0.64};
     double least = 1e300;
@@ -106,7 +106,7 @@ static double seconds_of_single(const fst_coefficients_double *c)
         for (int i = 0; i < PLACES; ++i) {
             double x, y, b[3], gu[3];
             place_of(i, &x, &y);
-            fst_field_along_double(c, x, y, u, b, gu);
+            fst_field_along_double(c, x, y, c->height, u, b, gu);
             sum += b[0] + b[1] + b[2] + gu[0] + gu[1] + gu[2];
         }
         const double seconds = (parts_now() - began) / PLACES;
@@ -148,7 +148,7 @@ int main(void)
 {
     fst_params params[MAGNETS];
     fst_groups groups[MAGNETS];
-    fst_coefficients_double single[MAGNETS];
+    fst_world_double single[MAGNETS];
     double seconds[MAGNETS];
     for (int i = 0; i < MAGNETS; ++i) {
         fst_error error;
@@ -157,7 +157,7 @@ int main(void)
         if (fst_model_new(&params[i], &model, &error) != FST_OK)
             return puts(error.sentence), 1;
         groups[i] = fst_model_groups(model);
-        single[i] = model->coefficients;
+        single[i] = model->world;
         fst_model_free(model);
     }
     (void)printf("B and G u at a place       lines    block   dipole     disc\n");

@@ -45,7 +45,7 @@ static int by_festoon(job *j, double tolerance, double end[FST_STATE_SIZE])
     fst_stop stop;
     if (fst_flow_new(j->model, &o, j->start, &flow, NULL) != FST_OK)
         return 0;
-    const int good = fst_flow_advance(flow, j->t_end, 0, &stop, NULL) == FST_OK;
+    const int good = fst_flow_next(flow, j->t_end, 0, &stop, NULL) == FST_OK;
     const fst_flow_info info = fst_flow_get(flow);
     memcpy(end, info.state, sizeof info.state);
     j->rhs_calls = info.rhs_calls;
@@ -58,7 +58,7 @@ static int gsl_rhs(double t, const double y[], double dy[], void *data)
     (void)t;
     job *j = data;
     fst_pull_double p;
-    fst_rhs_double(&j->model->coefficients, j->model->coefficients.omega, y, dy, &p);
+    fst_rhs_double(&j->model->world, NULL, j->model->world.omega, y, dy, &p);
     j->rhs_calls += 1;
     return GSL_SUCCESS;
 }
@@ -134,7 +134,7 @@ static void time_rhs(const job *j)
         const double start = seconds();
         for (int i = 0; i < CALLS; ++i) {
             fst_pull_double p;
-            fst_rhs_double(&j->model->coefficients, j->model->coefficients.omega, y, dy, &p);
+            fst_rhs_double(&j->model->world, NULL, j->model->world.omega, y, dy, &p);
             for (int k = 0; k < FST_STATE_SIZE; ++k)
                 y[k] += 1e-14 * dy[k]; /* the next call depends on all of this one */
         }

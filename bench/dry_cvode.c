@@ -21,7 +21,7 @@
 enum { UNKNOWNS = FST_STATE_SIZE + 1 };
 
 typedef struct regularised {
-    const fst_coefficients_double *c; /* without friction */
+    const fst_world_double *c; /* without friction */
     double mu, width2;
 } regularised;
 
@@ -35,7 +35,7 @@ int dry_cvode_is_optimised(void)
 }
 
 /* -f on the velocity v, and what it does to W. */
-static void add_friction(const fst_coefficients_double *c, const double f[2], double *dy)
+static void add_friction(const fst_world_double *c, const double f[2], double *dy)
 {
     dy[FST_VX] -= f[0];
     dy[FST_VY] -= f[1];
@@ -50,8 +50,8 @@ static int rhs(realtype t, N_Vector at, N_Vector rate, void *data)
     const double *y = N_VGetArrayPointer(at);
     double *dy = N_VGetArrayPointer(rate);
     fst_pull_double pull;
-    fst_rhs_double(law->c, law->c->omega, y, dy, &pull);
-    const fst_contact_double contact = fst_contact_of_double(law->c, y, &pull);
+    fst_rhs_double(law->c, NULL, law->c->omega, y, dy, &pull);
+    const fst_contact_double contact = fst_contact_of_double(law->c, NULL, y, &pull);
     const double *v = contact.slip;
     const double each = law->mu * contact.load / sqrt(v[0] * v[0] + v[1] * v[1] + law->width2);
     const double f[2] = {each * v[0], each * v[1]};
@@ -69,7 +69,7 @@ static int jacobian(realtype t, N_Vector at, N_Vector rate, SUNMatrix matrix, vo
     const double r = sqrt(y[FST_X] * y[FST_X] + y[FST_Y] * y[FST_Y]);
     fst_linear_double l;
     double dy[FST_STATE_SIZE], axis[FST_STATE_SIZE] = {0}, column[FST_STATE_SIZE], force[3], turning[3], dv[2];
-    fst_linearise_double(law->c, omega, y, &l, dy);
+    fst_linearise_double(law->c, NULL, omega, y, &l, dy);
     const double *v = l.contact.slip, load = l.contact.load;
     const double q2 = v[0] * v[0] + v[1] * v[1] + law->width2, q = sqrt(q2);
     for (int j = 0; j < FST_STATE_SIZE; ++j) {
@@ -118,7 +118,7 @@ static int integrate(void *solver, N_Vector y, double t_most, double *mean_r, do
 
 int dry_by_cvode(const dry_job *job, const dry_setting *setting, double *mean_r, double *periods)
 {
-    regularised law = {&job->smooth->coefficients, job->mu, setting->width * setting->width};
+    regularised law = {&job->smooth->world, job->mu, setting->width * setting->width};
     SUNContext context = NULL;
     double t = 0.0;
     int upwards = 1;

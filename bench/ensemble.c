@@ -42,7 +42,7 @@ int ensemble_by_scalar(const ensemble_method *self, const ensemble_point *const 
     for (int i = 0; i < count && good; ++i) {
         fst_stop stop;
         fst_flow *flow = flow_at(points[i], tolerance);
-        good = flow && fst_flow_advance(flow, points[i]->t_end, 0, &stop, NULL) == FST_OK;
+        good = flow && fst_flow_next(flow, points[i]->t_end, 0, &stop, NULL) == FST_OK;
         if (good)
             memcpy(ends[i], fst_flow_get(flow).state, sizeof ends[i]);
         ensemble_evaluations += good ? flow->rhs_calls : 0;
@@ -107,10 +107,10 @@ static int gsl_rhs(double t, const double y[], double dy[], void *data)
 {
     (void)t;
     const ensemble_point *point = data;
-    const fst_coefficients_double *c = &point->model->coefficients;
+    const fst_world_double *c = &point->model->world;
     fst_pull_double pull;
     ensemble_evaluations += 1;
-    fst_rhs_double(c, c->omega, y, dy, &pull);
+    fst_rhs_double(c, NULL, c->omega, y, dy, &pull);
     return GSL_SUCCESS;
 }
 
@@ -136,14 +136,14 @@ static int gsl_rhs_with_integrands(double t, const double y[], double dy[], void
 {
     (void)t;
     const ensemble_point *point = data;
-    const fst_coefficients_double *c = &point->model->coefficients;
+    const fst_world_double *c = &point->model->world;
     fst_pull_double pull;
     fst_seen_double seen;
     double integrands[FST_Q_COUNT];
     ensemble_evaluations += 1;
-    fst_rhs_double(c, c->omega, y, dy, &pull);
-    fst_see_double(c, c->omega, y, &pull, &seen);
-    fst_integrands_double(c, y, &pull, &seen, 1.0, 1.0, integrands);
+    fst_rhs_double(c, NULL, c->omega, y, dy, &pull);
+    fst_see_double(c, NULL, c->omega, y, &pull, &seen);
+    fst_integrands_double(c, NULL, y, &pull, &seen, 1.0, 1.0, integrands);
     memcpy(dy + FST_STATE_SIZE, integrands, FST_Q_OTHERS * sizeof *integrands);
     return GSL_SUCCESS;
 }

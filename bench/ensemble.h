@@ -8,7 +8,7 @@
 
 #include <gsl/gsl_odeiv2.h>
 
-#include "lanes/final_states.h"
+#include "final_states.h"
 
 typedef struct ensemble_point {
     fst_params params;

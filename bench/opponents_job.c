@@ -50,7 +50,7 @@ void job_rhs(const job_trajectory *trajectory, const double state[JOB_STATE_SIZE
 {
     fst_pull_double pull;
     const fst_model *model = trajectory->model;
-    fst_rhs_double(&model->coefficients, model->coefficients.omega, state, derivative, &pull);
+    fst_rhs_double(&model->world, NULL, model->world.omega, state, derivative, &pull);
 }
 
 const fst_params *job_params(const job_trajectory *trajectory)

@@ -14,14 +14,14 @@ enum { PLACES = 512 };
 
 /* As a right-hand side has it: not inlined, and B and G u its only product. */
 static __attribute__((noinline)) void pull(const fst_kinds *kinds, const FN(source_numbers) * source, REAL x,
-                                           REAL y, const REAL u[3], REAL b[3], REAL gu[3])
+                                           REAL y, REAL z, const REAL u[3], REAL b[3], REAL gu[3])
 {
 #ifdef FIELD_KEEPS_GRADIENT
     FN(gradient) g;
-    FN(source_field)(source, kinds, x, y, b, &g);
+    FN(source_field)(source, kinds, x, y, z, b, &g);
     FN(times_gradient)(&g, u, gu);
 #else
-    FN(source_along)(source, kinds, x, y, u, b, gu);
+    FN(source_along)(source, kinds, x, y, z, u, b, gu);
 #endif
 }
 
@@ -45,7 +45,7 @@ double PARTS_FIELD(const fst_params *params, const fst_groups *groups, int round
         const double began = parts_now();
         for (int i = 0; i < PLACES; ++i) {
             REAL b[3], gu[3];
-            pull(&kinds, &source, x[i], y[i], u, b, gu);
+            pull(&kinds, &source, x[i], y[i], REAL_OF(groups->h), u, b, gu);
             sum = sum + ((b[0] + b[1]) + (b[2] + gu[0])) + (gu[1] + gu[2]);
         }
         const double seconds = (parts_now() - began) / (PLACES * FST_LANES);

@@ -17,8 +17,8 @@ int reference_state(const fst_params *params, const fst_groups *groups, const do
     fst_bead_step_long_double s;
     long double atol[FST_STATE_SIZE], t = 0, lost = 0, h = 1e-3L;
     memset(&s, 0, sizeof s);
-    s.context.coefficients = fst_make_coefficients_long_double(params, groups);
-    s.omega = s.context.coefficients.omega;
+    s.context.world = fst_make_world_long_double(params, groups);
+    s.omega = s.context.world.omega;
     s.ramp = 0;
     for (int i = 0; i < FST_STATE_SIZE; ++i) {
         s.y[i] = state[i];

@@ -8,26 +8,26 @@
 #include "model/bodies.inl"
 
 /* As a step has it: not inlined, its results in memory; in the fast forms with the pull at the next stage. */
-static __attribute__((noinline)) void evaluate(const FN(coefficients) * c, const REAL *y, REAL *dy,
-                                               FN(pull) * pull, FN(pull) * next)
+static __attribute__((noinline)) void evaluate(const FN(world) * c, const REAL *y, REAL *dy, FN(pull) * pull,
+                                               FN(pull) * next)
 {
 #ifdef REAL_FORCES_AHEAD
     FN(kinematics)(c->omega, y, dy);
-    FN(pull_and_dynamics)(c, y, next, c->omega, y, pull, dy);
+    FN(pull_and_dynamics)(c, NULL, y, next, c->omega, y, pull, dy);
 #else
     (void)next;
-    FN(rhs)(c, c->omega, y, dy, pull);
+    FN(rhs)(c, NULL, c->omega, y, dy, pull);
 #endif
 }
 
 void RHS_LANES(const fst_params *params, const fst_groups *groups, const double *state, int times)
 {
-    const FN(coefficients) c = FN(make_coefficients)(params, groups);
+    const FN(world) c = FN(make_world)(params, groups);
     REAL y[FST_STATE_SIZE], dy[FST_STATE_SIZE];
     FN(pull) pull[2];
     for (int k = 0; k < FST_STATE_SIZE; ++k)
         y[k] = REAL_OF(state[k]);
-    FN(rhs)(&c, c.omega, y, dy, &pull[0]);
+    FN(rhs)(&c, NULL, c.omega, y, dy, &pull[0]);
     for (int i = 0; i < times; ++i) {
         evaluate(&c, y, dy, &pull[i % 2], &pull[(i + 1) % 2]);
         __asm__ volatile("" : : "m"(dy), "m"(pull));

@@ -14,15 +14,17 @@ string(REGEX REPLACE "/$" "" pkgconfig_to_prefix "${pkgconfig_to_prefix}")
 
 set(exported_libraries festoon_library)
 install(FILES include/festoon/festoon.h include/festoon/orbits.h include/festoon/rows.h include/festoon/field_maps.h
-    include/festoon/params.def include/festoon/run.def include/festoon/physics.def "${festoon_own_def}"
+    include/festoon/beads.h
+    include/festoon/params.def include/festoon/run.def include/festoon/lists.def include/festoon/physics.def
+    "${festoon_own_def}"
     DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/festoon")
 configure_file(cmake/festoon.pc.in festoon.pc @ONLY)
 install(FILES "${PROJECT_BINARY_DIR}/festoon.pc" DESTINATION "${pkgconfig_dir}")
 
 if(FESTOON_TOOLS)
     list(APPEND exported_libraries festoon_tools_library)
-    install(FILES include/festoon/festoon_tools.h include/festoon/fit.h include/festoon/tracks.h
-            include/festoon/film_tracks.h include/festoon/measure.def
+    install(FILES include/festoon/festoon_tools.h include/festoon/look.h include/festoon/charts.h
+            include/festoon/fit.h include/festoon/tracks.h include/festoon/film_tracks.h include/festoon/measure.def
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/festoon")
     configure_file(cmake/festoon-tools.pc.in festoon-tools.pc @ONLY)
     install(FILES "${PROJECT_BINARY_DIR}/festoon-tools.pc" DESTINATION "${pkgconfig_dir}")

@@ -46,7 +46,7 @@ enum {
 enum { ROWS = 4096, TEXT_SIZE = 512 };
 
 typedef struct lab {
-    fst_params params;
+    fst_params params, kept;
     fst_error error;
     fst_run_result result;
     fst_model *model; /* of the motion that is shown, with its flow; NULL: none */
@@ -163,6 +163,17 @@ EXPORT(lab_reset) void lab_reset(lab *l)
     l->params = fst_default_params();
 }
 
+/* Keep the parameters as they are now, and bring them back where the scene that was to take their place is bad. */
+EXPORT(lab_keep) void lab_keep(lab *l)
+{
+    l->kept = l->params;
+}
+
+EXPORT(lab_undo) void lab_undo(lab *l)
+{
+    l->params = l->kept;
+}
+
 EXPORT(lab_set) int lab_set(lab *l, const char *key, const char *text)
 {
     return (int)fst_params_set(&l->params, key, text, &l->error);
@@ -195,14 +206,17 @@ EXPORT(lab_row_count) int lab_row_count(const lab *l)
     return fst_params_row_count(&l->params);
 }
 
-/* Settle what follows from other values, as `festoon run` does, and check all together. */
+/* Settle what follows from other values, as `festoon run` does, and check all together, the start included. */
 EXPORT(lab_check) int lab_check(lab *l)
 {
+    double state[FST_STATE_SIZE];
     l->params.run_discard = fst_run_discard(&l->params);
     fst_status status = fst_params_check_effects(&l->params, &l->error);
     fst_model *model = NULL;
     if (status == FST_OK)
         status = fst_model_new(&l->params, &model, &l->error);
+    if (status == FST_OK)
+        status = fst_start_state(&l->params, model, state, &l->error);
     fst_model_free(model);
     return (int)status;
 }
@@ -224,9 +238,9 @@ EXPORT(lab_groups) const double *lab_groups(lab *l)
         return NULL;
     const fst_groups g = fst_model_groups(model);
     fst_model_free(model);
-    const double numbers[] = {g.eps,       g.h,     g.lambda,     g.kappa,        g.a,
-                              g.b,         g.omega, g.gravity,    g.plate_radius, g.length_unit,
-                              g.time_unit, g.mass,  g.field_unit, g.lines};
+    const double numbers[] = {g.eps,         g.inertia,   g.h,     g.lambda,     g.kappa,
+                              g.a,           g.b,         g.omega, g.gravity,    g.plate_radius,
+                              g.length_unit, g.time_unit, g.mass,  g.field_unit, g.lines};
     memcpy(l->numbers, numbers, sizeof numbers);
     return l->numbers;
 }
@@ -503,22 +517,21 @@ EXPORT(lab_go) int lab_go(lab *l, double seconds, int count)
     count = count < 1 ? 1 : count > ROWS ? ROWS : count;
     for (int i = 0; i < count; ++i) {
         fst_stop stop;
-        const fst_status status =
-            fst_flow_advance(l->flow, from + span * (i + 1) / count,
-                             1u << FST_STOP_EDGE | 1u << FST_STOP_LIFT_OFF, &stop, &l->error);
+        const fst_status status = fst_flow_next(l->flow, from + span * (i + 1) / count,
+                                                FST_AT_EDGE | FST_AT_LIFT_OFF, &stop, &l->error);
         if (status != FST_OK)
             return -(int)status;
         fill_row(l, l->rows[i]);
-        if (stop != FST_STOP_TIME) {
+        if (stop != FST_AT_TIME) {
             l->numbers[0] = stop;
             return i + 1;
         }
     }
-    l->numbers[0] = FST_STOP_TIME;
+    l->numbers[0] = FST_AT_TIME;
     return count;
 }
 
-/* Why lab_go() ended: 0 the time was up, 2 the plate's edge, 3 the load vanished. */
+/* Why lab_go() ended: FST_AT_TIME, FST_AT_EDGE or FST_AT_LIFT_OFF. */
 EXPORT(lab_stop) int lab_stop(const lab *l)
 {
     return (int)l->numbers[0];
@@ -548,7 +561,7 @@ EXPORT(lab_field) const double *lab_field(lab *l, double x, double y)
 EXPORT(lab_flow_section) int lab_flow_section(lab *l, double until, int section)
 {
     fst_stop stop;
-    return (int)fst_flow_advance(l->flow, until, section ? 1u << FST_STOP_SECTION : 0, &stop, &l->error);
+    return (int)fst_flow_next(l->flow, until, section ? FST_AT_SECTION : 0, &stop, &l->error);
 }
 
 /* The state at which a motion starts, before anything is done with it. */

@@ -38,6 +38,7 @@ SOURCES = (
     "docs",
     "examples",
     "include",
+    "paper",
     "python",
     "src",
     "tools",
@@ -210,6 +211,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
                 wheel.add(f"festoon/{path.name}", path.read_bytes(), 0o755 if path.suffix == ".so" else 0o644)
         for name, path in _libraries(build):
             wheel.add(f"festoon/{name}", path.read_bytes(), 0o755)
+        wheel.add("festoon/festoon-paper", (build / "festoon-paper").read_bytes(), 0o755)
         page = ROOT / "build" / "festoon-lab.html"  # where `make lab` has made it
         if page.exists():
             wheel.add("festoon/festoon-lab.html", page.read_bytes())

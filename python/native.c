@@ -10,6 +10,11 @@
 /* In the module that cffi makes: calls the object behind `handle`. */
 extern fst_status pyf_tell_python(void *handle, double fraction, const char *what, fst_error *error);
 
+const char *const pyf_figures = FST_WORDS(FST_FIGURES);
+const char *const pyf_units = FST_WORDS(FST_SHOWN);
+const char *const pyf_carries = FST_WORDS(FST_CARRIES);
+const char *const pyf_stops = FST_WORDS(FST_STOPS);
+
 /* ------------------------------------------------------------------ progress */
 
 static fst_status interrupted(fst_error *error)
@@ -215,7 +220,7 @@ pyf_row *pyf_batch_rows(pyf_batch *batch)
     return batch->rows;
 }
 
-/* ------------------------------------------------------------------ the field */
+/* ------------------------------------------------------------------ the field, and states */
 
 void pyf_field(const fst_model *model, size_t count, const double *x, const double *y, double *b, double *grad)
 {
@@ -224,4 +229,25 @@ void pyf_field(const fst_model *model, size_t count, const double *x, const doub
         fst_field(model, x[i], y[i], b + 3 * i, slopes);
         memcpy(grad + 9 * i, slopes, sizeof slopes);
     }
+}
+
+void pyf_rhs(const fst_model *model, size_t count, const double *states, double *out)
+{
+    for (size_t i = 0; i < count; ++i)
+        fst_rhs(model, states + i * FST_STATE_SIZE, out + i * FST_STATE_SIZE);
+}
+
+void pyf_jacobian(const fst_model *model, size_t count, const double *states, double *out)
+{
+    for (size_t i = 0; i < count; ++i) {
+        double slopes[FST_STATE_SIZE][FST_STATE_SIZE];
+        fst_jacobian(model, states + i * FST_STATE_SIZE, slopes, NULL);
+        memcpy(out + i * FST_STATE_SIZE * FST_STATE_SIZE, slopes, sizeof slopes);
+    }
+}
+
+void pyf_observe(const fst_model *model, size_t count, const double *states, fst_observation *out)
+{
+    for (size_t i = 0; i < count; ++i)
+        out[i] = fst_observe(model, states + i * FST_STATE_SIZE);
 }

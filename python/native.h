@@ -6,6 +6,9 @@
 
 #include <festoon/festoon_tools.h>
 
+/* The names of lists.def for which the library has no function, "one|two|...". */
+extern const char *const pyf_figures, *const pyf_units, *const pyf_carries, *const pyf_stops;
+
 /* A tell() that calls Python at most every few hundredths of a second.  `last` begins with 0. */
 typedef struct pyf_watch {
     double last; /* when Python was called, s */
@@ -51,5 +54,10 @@ int pyf_row_fail(pyf_row *row, const char *where, const char *sentence);
 
 /* The field at `count` points: 3 numbers of b and 9 of grad for each. */
 void pyf_field(const fst_model *model, size_t count, const double *x, const double *y, double *b, double *grad);
+
+/* fst_rhs(), fst_jacobian() and fst_observe() of `count` states, one after the other. */
+void pyf_rhs(const fst_model *model, size_t count, const double *states, double *out);
+void pyf_jacobian(const fst_model *model, size_t count, const double *states, double *out);
+void pyf_observe(const fst_model *model, size_t count, const double *states, fst_observation *out);
 
 #endif

@@ -49,6 +49,55 @@ function rows_of(table,    line, here, text, docs, names, strings)
     return docs "."
 }
 
+# The rows of a table of lists.def, ROW(NAME, "name", "doc", ...): NAME, name and doc of each in list_name[], list_word[]
+# and list_doc[], behind the `count` that are there; returns how many there are then.
+function list_of(table, count,    all, line, here, rows, i, strings, names)
+{
+    while ((getline line < (folder "lists.def")) > 0) {
+        if (line ~ /^#define/)
+            here = index(line, "#define " table "(ROW)") == 1
+        if (here) {
+            sub(/ *\\$/, "", line)
+            all = all line
+        }
+    }
+    close(folder "lists.def")
+    rows = split(all, names, /ROW\(/)
+    for (i = 2; i <= rows; ++i) {
+        gsub(/"  *"/, "", names[i])
+        if (names[i] ~ /^ROW\)/ || split(names[i], strings, "\"") < 3)
+            continue
+        ++count
+        list_name[count] = names[i]
+        sub(/,.*/, "", list_name[count])
+        list_word[count] = strings[2]
+        list_doc[count] = strings[4]
+    }
+    return count
+}
+
+# The docs of a choice whose rows are in lists.def, as "name: doc; name: doc.".
+function docs_of(table,    count, i, docs)
+{
+    count = list_of(table, 0)
+    for (i = 1; i <= count; ++i)
+        docs = docs (i > 1 ? "; " : "") list_word[i] ": " list_doc[i]
+    return docs "."
+}
+
+# typedef enum { FST_LIST(FST_ROW_ENUM) COUNT } name; with an enumerator for each row; FST_ROW_FLAG is its flag.
+function put_enum(line,    words, count, i)
+{
+    split(line, words, /[ ({}]+/)
+    count = list_of("FST_FOLLOWED_SPECIALS", 0)
+    count = list_of(words[3], words[3] == "FST_SPECIALS" ? count : 0)
+    print "typedef enum {"
+    for (i = 1; i <= count; ++i)
+        print "FST_" list_name[i] ", /**< " plain("\"" list_word[i] "\": " list_doc[i]) " */"
+    sub(/.*FST_ROW_(ENUM|FLAG)\) /, "", line)
+    print line
+}
+
 # One row of a .def table, FST_KIND(group, name, ... "doc") or FST_RESULT(name, "unit", "doc"), as a field.
 function put_field(row,    words, strings, count, kind, name, i, doc)
 {
@@ -65,6 +114,11 @@ function put_field(row,    words, strings, count, kind, name, i, doc)
         doc = rows_of("FST_SOURCES")
     if (row ~ /FST_CONTACT_DOCS/)
         doc = rows_of("FST_CONTACTS")
+    if (row ~ /FST_DOCS\(/) {
+        sub(/.*FST_DOCS\(/, "", row)
+        sub(/\).*/, "", row)
+        doc = docs_of(row)
+    }
     if (kind == "FST_TEXT")
         print "char " name "[" words[4] "]; /**< " plain(doc) " */"
     else
@@ -78,7 +132,7 @@ function put_table(file,    line, row)
             row = line
         else if (row != "")
             row = row line
-        if (row != "" && line ~ /("|_DOCS)\)$/) {
+        if (row != "" && line ~ /("|_DOCS|FST_DOCS\(FST_[A-Z_]+\))\)$/) {
             put_field(row)
             row = ""
         }
@@ -88,9 +142,16 @@ function put_table(file,    line, row)
 
 in_comment { print inside($0); next }
 
-/^#include <festoon\/(params|run)\.def>/ {
+FNR == 1 {
     folder = FILENAME
     sub(/[^\/]*$/, "", folder)
+}
+
+/FST_ROW_(ENUM|FLAG)\) / { put_enum($0); next }
+
+/FST_ROW_PLACE\)/ { next } # only what the flags are made of
+
+/^#include <festoon\/(params|run)\.def>/ {
     match($0, /\/.*\.def/)
     put_table(folder substr($0, RSTART + 1, RLENGTH - 1))
     next

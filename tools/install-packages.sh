@@ -9,7 +9,7 @@
 set -eu
 
 build_packages="gcc libc6-dev cmake ninja-build pkg-config libyaml-dev libjansson-dev libsqlite3-dev libhdf5-dev
-    liblapacke-dev libcairo2-dev libopenmpi-dev libcminpack-dev"
+    liblapacke-dev libcairo2-dev libopenmpi-dev libcminpack-dev libexpat1-dev"
 demo_packages="$build_packages gnuplot-nox fonts-dejavu-core"
 # The Python module; its tests need the second line too.
 python_packages="python3-dev python3-cffi python3-numpy"

@@ -72,3 +72,23 @@ def write_tables():
 
 
 write_tables()
+
+
+def fill_in(app, exception):
+    """Debian's theme leaves two imports for a server to resolve; pages that are opened as files need what they name."""
+    static = pathlib.Path(app.outdir) / "_static"
+    named = {
+        "styles/furo.css": ("@import url(/javascript/normalize.css/normalize.css);", "/usr/share"),
+        "scripts/furo.js": ('import Gumshoe from "./gumshoe-patched.js";', static / "scripts"),
+    }
+    for name, (line, folder) in named.items():
+        file = static / name
+        text = file.read_text(encoding="utf-8") if exception is None else ""
+        if line in text:
+            path = line.split('"')[1] if '"' in line else line.split("(")[1].split(")")[0]
+            there = pathlib.Path(f"{folder}/{path}")
+            file.write_text(text.replace(line, there.read_text(encoding="utf-8") if there.is_file() else ""), encoding="utf-8")
+
+
+def setup(app):
+    app.connect("build-finished", fill_in)

@@ -2,8 +2,10 @@
  *
  * The magnet is two opposite charges.  Its formulas are in own/charges.inl, its name and its parameters in
  * own/festoon/own.def; nothing else knows of it.  A build of festoon with that folder has it everywhere: in
- * scenes, runs, sweeps, orbits and films, and in the program (festoon run --set magnet.shape=charges).  In the
- * folder of festoon:
+ * scenes, runs, sweeps, orbits and films, and in the program (festoon run --set magnet.shape=charges).
+ *
+ * It takes festoon's source, not its installed headers and libraries alone (force.c needs no more than these), because
+ * it is compiled into the lanes of every instruction set.  In the folder of the source:
  *
  *     cmake -B build-own -DCMAKE_BUILD_TYPE=Release -DFESTOON_OWN_PHYSICS=examples/c/own
  *     cmake --build build-own

@@ -2,7 +2,10 @@
  *
  * The friction force is own.grip N |V| V, with the normal load N and the velocity V of the contact point: it is
  * neither linear nor blind to the load.  Its formula and its derivative are in own/quadratic.inl, its name and
- * its parameter in own/festoon/own.def; nothing else knows of it.  In the folder of festoon:
+ * its parameter in own/festoon/own.def; nothing else knows of it.
+ *
+ * It takes festoon's source, not its installed headers and libraries alone (force.c needs no more than these), because
+ * it is compiled into the lanes of every instruction set.  In the folder of the source:
  *
  *     cmake -B build-own -DCMAKE_BUILD_TYPE=Release -DFESTOON_OWN_PHYSICS=examples/c/own
  *     cmake --build build-own

@@ -22,6 +22,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <festoon/lists.def>
 #include <festoon/physics.def>
 
 #ifdef __cplusplus
@@ -41,9 +42,11 @@ extern "C" {
 #define FST_VERSION_PATCH 0
 #define FST_VERSION_STRING "0.1.0"
 
-/* Increased when the same parameters give other bits than before.  A sweep that was begun by another version is
+/* Increased when the same parameters give other bits than before: the first is the version of the laws viscous
+ * and none, the second that of dry friction (coulomb, rolling).  A sweep that was begun by another version is
  * not continued. */
-#define FST_RESULTS_VERSION 10
+#define FST_RESULTS_VERSION 11
+#define FST_DRY_RESULTS_VERSION 12
 
 /* "0.1.0": the version of the library that is running. */
 FST_API const char *fst_version(void);
@@ -61,7 +64,7 @@ FST_API const char *fst_version(void);
     X(FST_INTERRUPTED, "interrupted")
 typedef enum fst_status {
 #define FST_STATUS_ENUM(name, text) name,
-    FST_STATUS_LIST(FST_STATUS_ENUM)
+    FST_STATUS_LIST(FST_STATUS_ENUM) FST_STATUS_COUNT
 #undef FST_STATUS_ENUM
 } fst_status;
 
@@ -89,7 +92,9 @@ typedef struct fst_progress {
 
 /* ------------------------------------------------------------------ parameters */
 
-typedef enum { FST_MATERIAL_HARD, FST_MATERIAL_PARAMAGNETIC, FST_MATERIAL_MIXED } fst_material;
+/* An enum made by FST_ROW_ENUM has an enumerator for each row of a list of lists.def (FST_MATERIAL_HARD, ...),
+ * and behind them the number of rows. */
+typedef enum { FST_MATERIALS(FST_ROW_ENUM) FST_MATERIAL_COUNT } fst_material;
 /* A number for each row of physics.def: FST_MAGNET_LINES, ...; FST_FRICTION_VISCOUS, FST_FRICTION_NONE, ... */
 #define FST_SOURCE_ENUM(NAME, name, doc) FST_MAGNET_##NAME,
 #define FST_CONTACT_ENUM(NAME, name, modes, brakes, doc) FST_FRICTION_##NAME,
@@ -97,39 +102,18 @@ typedef enum { FST_SOURCES(FST_SOURCE_ENUM) FST_MAGNET_SHAPES } fst_magnet_shape
 typedef enum { FST_CONTACTS(FST_CONTACT_ENUM) FST_FRICTION_LAWS } fst_friction_law;
 #undef FST_SOURCE_ENUM
 #undef FST_CONTACT_ENUM
-typedef enum { FST_DYNAMICS_RIGID, FST_DYNAMICS_FARAGO2020 } fst_dynamics;
-typedef enum { FST_PATCH_POINT, FST_PATCH_HERTZ, FST_PATCH_PADE } fst_contact_patch;
-typedef enum { FST_SPIN_ROLLING, FST_SPIN_REST } fst_start_spin;
-typedef enum { FST_UNTIL_PERIODS, FST_UNTIL_SETTLED } fst_run_until;
-typedef enum { FST_CONTROLLER_PLAIN, FST_CONTROLLER_DAMPED } fst_controller;
-typedef enum { FST_METHOD_EVENTS, FST_METHOD_SPLITTING } fst_method;
+typedef enum { FST_DYNAMICS(FST_ROW_ENUM) FST_DYNAMICS_COUNT } fst_dynamics;
+typedef enum { FST_PATCHES(FST_ROW_ENUM) FST_PATCH_COUNT } fst_contact_patch;
+typedef enum { FST_SPINS(FST_ROW_ENUM) FST_SPIN_COUNT } fst_start_spin;
+typedef enum { FST_UNTILS(FST_ROW_ENUM) FST_UNTIL_COUNT } fst_run_until;
 
-/* The kinds of unit that a parameter may carry (params.def). */
-typedef enum {
-    FST_UNIT_NUMBER,       /* pure or scaled number: no unit allowed */
-    FST_UNIT_LENGTH,       /* m; um mm cm m */
-    FST_UNIT_MASS,         /* kg; mg g kg */
-    FST_UNIT_MOMENT,       /* A m^2; "A m2", "A.m2", "A*m^2", "mA m2" */
-    FST_UNIT_FIELD,        /* T; uT mT T G */
-    FST_UNIT_FREQUENCY,    /* Hz; Hz kHz rpm rad/s */
-    FST_UNIT_RATE,         /* 1/s; 1/s s-1 1/ms */
-    FST_UNIT_ACCELERATION, /* m/s^2; m/s2 m/s^2 */
-    FST_UNIT_SPEED,        /* m/s; mm/s cm/s m/s */
-    FST_UNIT_ANGLE,        /* deg; deg rad turn */
-    FST_UNIT_PRESSURE,     /* Pa; Pa kPa MPa GPa */
-    FST_UNIT_DENSITY       /* kg/m^3; kg/m^3 g/cm^3 */
-} fst_unit;
+/* The kinds of unit that a value may carry. */
+typedef enum { FST_UNITS(FST_ROW_ENUM) FST_UNIT_COUNT } fst_unit;
 
 /* A part of a real magnet (magnet.shape: parts), uniformly magnetised, in SI units.  The magnet's frame has its
  * origin on the axis of rotation at the magnet's reference plane, which lies magnet.depth below the plate; z
  * points up.  Remanence and moment are vectors of the part's own axes, and turn with it. */
-typedef enum {
-    FST_PART_CUBOID,
-    FST_PART_CYLINDER,
-    FST_PART_SPHERE,
-    FST_PART_DIPOLE,
-    FST_PART_KINDS
-} fst_part_kind;
+typedef enum { FST_PARTS(FST_ROW_ENUM) FST_PART_KINDS } fst_part_kind;
 typedef struct fst_magnet_part {
     int kind;         /* fst_part_kind */
     double centre[3]; /* m, in the magnet's frame */
@@ -143,8 +127,23 @@ enum { FST_PARTS_MAX = 16 };
 
 typedef struct fst_field_map fst_field_map; /* of magnet.shape: grid (field_maps.h) */
 
+/* The library's own in fst_params: which of several forms of a quantity (fst_param_other_form()) was given. */
+enum { FST_FORMS = 16 };
+typedef struct fst_params_notes {
+    double seen[FST_FORMS]; /* what the fields of the forms held when the library last looked */
+    int kappa_given;        /* whether model.kappa was given, also with the value that is its default */
+} fst_params_notes;
+/* The default of run.rtol, and of the tolerances of a flow. */
+#define FST_DEFAULT_RTOL 1e-10
+
 /* A setup in SI units: what a scene says.  Get one from fst_default_params(), change fields, and make a model
- * of it.  A field that is NAN was not given and follows from others; params.def says how. */
+ * of it.  A field that is NAN was not given and follows from others; params.def says how.
+ *
+ * Some quantities have two forms, as drive.omega and drive.frequency.  A field that is given another number
+ * than it holds counts as fst_params_set() would: it takes the place of the other forms, which then have no
+ * effect and are not written into scenes.  Writing the number that is there already says nothing;
+ * fst_params_set() does then.  Where both were changed in one go, nobody knows which is meant, and making a
+ * model fails with the names of both; fst_params_set() and fst_params_settle() end such a go. */
 typedef struct fst_params {
     uint32_t cookie; /* set by fst_default_params(); a struct that was never initialised has another value */
 #define FST_REAL(group, name, unit, initial, least, greatest, doc) double group##_##name;
@@ -161,8 +160,7 @@ typedef struct fst_params {
     const fst_field_map *magnet_map;
     int magnet_part_count; /* of magnet.shape: parts */
     fst_magnet_part magnet_parts[FST_PARTS_MAX];
-    int model_kappa_given; /* beside a real magnet, where model.kappa counts only if it was given: whether it
-                              was given its default too; set by fst_params_set() */
+    fst_params_notes notes; /* not to be written by programs */
 } fst_params;
 
 /* How far a place in the magnet's frame is from a part, m; 0 inside it and on its surface. */
@@ -213,6 +211,10 @@ FST_API int fst_param_find(const char *key);
 FST_API const char *fst_unit_name(fst_unit unit);
 FST_API const char *fst_unit_accepted(fst_unit unit);
 
+/* The name of the unit in which people read values of a kind ("mm"), and in *power the power of ten by which a
+ * value is more in it than in SI (3). */
+FST_API const char *fst_unit_customary(fst_unit unit, int *power);
+
 /* Read a value with an optional unit, "2.5 mm".  FST_BAD_INPUT: it is no number, has a wrong unit, or something
  * follows it. */
 FST_API fst_status fst_parse_value(const char *text, fst_unit unit, double *value, fst_error *error);
@@ -224,6 +226,20 @@ FST_API fst_status fst_parse_value(const char *text, fst_unit unit, double *valu
  * the last one adds a part.  FST_BAD_INPUT: the sentence names the nearest valid key, the units, or the range.
  */
 FST_API fst_status fst_params_set(fst_params *params, const char *key, const char *text, fst_error *error);
+
+/* Take a parameter back to what it is where nothing was said of it.  FST_BAD_INPUT: there is no such key, or it
+ * is that of a part's number. */
+FST_API fst_status fst_params_unset(fst_params *params, const char *key, fst_error *error);
+
+/* Let fields that were changed since the last call take the place of the other forms of their quantities, which
+ * go back to their defaults.  Every function that reads parameters does this by itself, on a copy.  It serves a
+ * program that reads fields back, or that will change another form of the same quantity next.  FST_BAD_INPUT:
+ * two forms of one quantity were changed; `params` is unchanged. */
+FST_API fst_status fst_params_settle(fst_params *params, fst_error *error);
+
+/* Whether two keys that are both given in this setup tell one quantity twice.  model.kappa and magnet.b0 do
+ * with lines and a moment of the bead; model.kappa and the moment do beside a real magnet. */
+FST_API int fst_params_clash(const fst_params *params, const char *one, const char *two);
 
 /* The drive periods that a run leaves out of its means: run.discard; but the first half of a run that is no
  * longer than run.discard, where that has its default of 200. */
@@ -281,6 +297,18 @@ FST_API int fst_params_get(const fst_params *params, int index, char *text, size
  * the list is empty.  For "did you mean". */
 FST_API int fst_nearest_name(const char *word, const char *names, char *nearest, size_t size);
 
+/* What a sentence about an unknown word says of the names there are: "the nearest is coulomb (choices: viscous,
+ * none, coulomb)" where one is near or means the same, "choose one of ..." where none is, because then the nearest
+ * by letters would mislead.  Lists that are too long for a sentence are left out.  Returns `text`. */
+enum { FST_SUGGESTION_SIZE = 640 };
+FST_API const char *fst_suggest_name(const char *word, const char *names, char text[FST_SUGGESTION_SIZE]);
+
+/* The place of a name in such a list, from 0; -1: it is not in it. */
+FST_API int fst_name_place(const char *name, const char *names);
+
+/* The name at a place of such a list, and its length; "": there is none. */
+FST_API const char *fst_name_at(const char *names, int place, size_t *length);
+
 /* Make a text from outside harmless for a terminal, a figure or a page.  A '?' replaces each control character
  * (also U+0080 to U+009F, which terminals obey, line and paragraph separators, and marks that turn the
  * direction of writing) and each byte that is no UTF-8.  The result is one line of UTF-8, never longer than
@@ -292,6 +320,7 @@ FST_API void fst_text_tame(char *text);
 /* The scaled groups on which the motion depends. */
 typedef struct fst_groups {
     double eps;     /* R/l */
+    double inertia; /* of the bead, I/(m R^2) */
     double h;       /* height of the bead's centre over the lines */
     double lambda;  /* spacing of the lines */
     double kappa;   /* magnetic strength; 0 for a paramagnetic bead */
@@ -321,8 +350,9 @@ FST_API void fst_model_free(fst_model *model);
 FST_API fst_groups fst_model_groups(const fst_model *model);
 
 /* A model of which only the field is asked, with a bead's force and load in it, at the height `height` (l) over
- * the magnet's reference plane instead of that of a bead on the plate.  It may lie below the plate, beside
- * parts of the magnet; inside of one, which fst_part_touched() finds, the field means nothing. */
+ * the magnet's reference plane; NAN: at that of a bead on the plate, as fst_model_new() has it.  It may lie
+ * below the plate, beside parts of the magnet; inside of one, which fst_part_touched() finds, the field means
+ * nothing. */
 FST_API fst_status fst_field_model_new(const fst_params *params, double height, fst_model **model,
                                        fst_error *error);
 
@@ -379,6 +409,34 @@ FST_API void fst_apply_s2(const double state[FST_STATE_SIZE], double image[FST_S
 
 /* ------------------------------------------------------------------ flow: one trajectory */
 
+/* What acts on the bead besides the magnet and the plate of its model; vectors on the axes that turn with the
+ * magnet, as those of a state. */
+typedef struct fst_action {
+    double field[3]; /* B at the bead's centre, B0; it adds to the magnet's, whatever the bead is made of */
+    double gradient[3]
+                   [3]; /* dB_i/dx_j there, B0/l: a field without it turns the bead, and does not pull at it */
+    double force[3];    /* per mass, l gamma^2; the third component lifts the bead, and takes from its load */
+    double torque[3];   /* about the bead's centre, per mass, l^2 gamma^2 */
+} fst_action;
+
+/* A field, a force or a torque of the caller's own, which may depend on time: for one trajectory at a time, by
+ * fst_flow_options.outside.  act() is called for every stage of a step, also for steps that are then rejected, so
+ * that `t` goes back as well as on and a state may be one that the bead never reaches; it is called in the thread
+ * that calls fst_flow_new(), fst_flow_next() or fst_flow_get(), and must give the same for the same arguments, and
+ * vary smoothly.  `t` is in 1/gamma; `phase`, 0 to 2 pi, is how far the magnet's axes have turned from those of the
+ * laboratory; `action` is all zeros before.  A status other than FST_OK ends fst_flow_next() with it and with the
+ * sentence in `error`; so does a number that is not finite, if no shorter step avoids it (FST_NOT_FINITE).
+ *
+ * It goes with contact laws without modes (friction.law viscous, none, and laws of one's own).  fst_run(), sweeps,
+ * orbits, branches and exponents take none, and no scene or file holds one: their verdicts need the derivative of
+ * all that acts, and lanes the same formulas for all runs.  A source or law of those is compiled in (docs/design.md).
+ * fst_observe() and fst_rhs() know the model alone. */
+typedef struct fst_outside {
+    void *user;
+    fst_status (*act)(void *user, double t, double phase, const double state[FST_STATE_SIZE],
+                      fst_action *action, fst_error *error);
+} fst_outside;
+
 typedef struct fst_flow_options {
     uint32_t cookie;
     double rtol;                 /* relative tolerance of a step */
@@ -386,37 +444,35 @@ typedef struct fst_flow_options {
     double first_step;           /* 0: chosen from the start state */
     double greatest_step;        /* 0: no bound */
     double ramp;                 /* d(omega)/dt: a slow frequency ramp */
-    /* Asked by each call of fst_flow_advance(), by the fraction of its time that is done (NULL: nobody is
+    /* Asked by each call of fst_flow_next(), by the fraction of its time that is done (NULL: nobody is
      * asked).  After a status other than FST_OK the flow stands where it was last, and may go on. */
     const fst_progress *progress;
-    fst_controller controller; /* run.controller: how the next step's size follows from errors */
+    const fst_outside *outside; /* copied by fst_flow_new(); NULL: the model alone acts on the bead */
 } fst_flow_options;
 
-/* rtol = atol = 1e-10, no bound on the step, no ramp, the plain controller. */
+/* rtol = atol = FST_DEFAULT_RTOL, no bound on the step, no ramp, nothing from outside. */
 FST_API fst_flow_options fst_default_flow_options(void);
 
 typedef struct fst_flow fst_flow;
 
 /* A trajectory from `state` at t = 0, by Dormand and Prince's method of order 8(5,3) with its dense output of
  * order 7.  Its bits depend on the model, the options, the state, and the times on which it was made to land
- * (t_end of fst_flow_advance), and on nothing else; events do not disturb it. */
+ * (t_end of fst_flow_next), and on nothing else; events do not disturb it. */
 FST_API fst_status fst_flow_new(const fst_model *model, const fst_flow_options *options,
                                 const double state[FST_STATE_SIZE], fst_flow **flow, fst_error *error);
 FST_API void fst_flow_free(fst_flow *flow);
 
-/* Why fst_flow_advance() returned. */
-typedef enum {
-    FST_STOP_TIME,    /* t_end was reached, exactly */
-    FST_STOP_SECTION, /* X = 0 was crossed: Phi = pi/2 or -pi/2 */
-    FST_STOP_EDGE,    /* r reached the plate's edge */
-    FST_STOP_LIFT_OFF /* the normal load reached 0 */
-} fst_stop;
+/* Why fst_flow_next() returned, and at which events it is to: a flag for each row of FST_STOPS (lists.def). */
+enum { FST_STOPS(FST_ROW_PLACE) FST_STOP_COUNT };
+typedef enum { FST_STOPS(FST_ROW_FLAG) } fst_stop;
 
-/* Go on until t_end or the first event in `events` (a sum of 1 << FST_STOP_*).  The state is then that at the
- * event, located on the dense output to rounding, and the next call goes on from there.  FST_STEP_UNDERFLOW,
- * FST_NOT_FINITE: `error` says at which time this was, and where the bead was. */
-FST_API fst_status fst_flow_advance(fst_flow *flow, double t_end, unsigned events, fst_stop *stop,
-                                    fst_error *error);
+/* Go on until t_end or the first event in `events`, a sum (|) of FST_AT_*.  The state is then that at the
+ * event, located on the dense output to rounding, and the next call goes on from there.  Where the mode of a
+ * contact or of rolling changes, the new one has begun; of several events at one time each is told by a call of
+ * its own. FST_STEP_UNDERFLOW, FST_NOT_FINITE: `error` says at which time this was, and where the bead was.
+ * FST_BAD_INPUT: another call is advancing this flow; a library built without NDEBUG aborts there. */
+FST_API fst_status fst_flow_next(fst_flow *flow, double t_end, unsigned events, fst_stop *stop,
+                                 fst_error *error);
 
 typedef struct fst_flow_info {
     double t, t_low; /* time, as the unevaluated sum of two doubles */
@@ -428,22 +484,16 @@ typedef struct fst_flow_info {
     double drive_turns; /* turns of the magnet since t = 0 */
     double norm_drift;  /* the sum of all | |n| - 1 | that renormalisation removed */
     uint64_t rhs_calls, accepted, rejected;
+    int sticks; /* the contact rolls without slipping */
+    int flies;  /* the bead is in the air */
+    int rests;  /* the bead does not roll, on a plate that resists it */
 } fst_flow_info;
 FST_API fst_flow_info fst_flow_get(const fst_flow *flow);
 
 /* ------------------------------------------------------------------ run: what a person asks for */
 
-typedef enum {
-    FST_REGIME_UNDECIDED,
-    FST_REGIME_LOCKED,           /* at rest in the turning frame */
-    FST_REGIME_LIBRATING,        /* Phi bounded */
-    FST_REGIME_COUNTER_ROTATING, /* Phi turns regularly, <alpha'> < 0 */
-    FST_REGIME_COROTATING,       /* Phi turns regularly, <alpha'> > 0 */
-    FST_REGIME_CHAOTIC,          /* the exponent is positive beyond its error */
-    FST_REGIME_EJECTED,          /* passed the plate's edge */
-    FST_REGIME_LIFTED            /* the normal load vanished */
-} fst_regime;
-typedef enum { FST_SYMMETRY_NONE, FST_SYMMETRY_S1, FST_SYMMETRY_S2 } fst_symmetry;
+typedef enum { FST_REGIMES(FST_ROW_ENUM) FST_REGIME_COUNT } fst_regime;
+typedef enum { FST_SYMMETRIES(FST_ROW_ENUM) FST_SYMMETRY_COUNT } fst_symmetry;
 
 /* "counter-rotating", "S2"; fst_symmetry_name gives NULL for no symmetry. */
 FST_API const char *fst_regime_name(fst_regime regime);

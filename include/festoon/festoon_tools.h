@@ -1,4 +1,4 @@
-/* festoon_tools.h - scenes, files, sweeps, figures, films and reports around festoon.h.
+/* festoon_tools.h - scenes, files, sweeps, figures and films around festoon.h.
  *
  * The library libfestoon-tools holds what needs files, other libraries or other programs.  A program that only
  * needs the physics uses festoon.h and libfestoon.
@@ -9,6 +9,8 @@
 #include <stdio.h>
 
 #include <festoon/festoon.h>
+#include <festoon/look.h>
+#include <festoon/charts.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -89,24 +91,6 @@ FST_API fst_status fst_branch_read(const char *path, fst_branch *branch, fst_err
 FST_API fst_status fst_run_dots_read(const char *path, const char *key, const char *observable, double **dots,
                                      size_t *count, fst_error *error);
 
-/* ------------------------------------------------------------------ units */
-
-/* The units of numbers that leave: those in which they were given; those of a laboratory (Hz, mm, s, mm/s, mT,
- * mN, mW); scaled ones (l, 1/gamma, B0, per mass); or SI. */
-typedef enum { FST_SHOWN_AS_GIVEN, FST_SHOWN_LAB, FST_SHOWN_SCALED, FST_SHOWN_SI } fst_shown_units;
-
-/* What the scaled units are: l in m, 1/gamma in s, the bead's mass in kg, B0 in T (NAN: it does not follow from
- * the parameters). */
-typedef struct fst_scales {
-    double length, time, mass, field;
-} fst_scales;
-FST_API fst_scales fst_scales_of(const fst_params *params);
-
-/* The factor that turns a value in `unit`, as the tables of columns and results name it ("l gamma"), into the
- * wanted units, and the name of the unit there ("mm/s").  A unit without counterpart stays: the factor is 1. */
-FST_API double fst_unit_shown(const char *unit, fst_shown_units units, const fst_scales *scales,
-                              const char **name);
-
 /* fst_run_json(); with FST_SHOWN_LAB or FST_SHOWN_SI also the numbers that have an SI unit, beside the scaled
  * ones: `mean_r_m`, `mean_b_tesla`, `mean_friction_power_watts`, `mean_load_newtons`, ...; null where B0 is not
  * known. */
@@ -151,10 +135,6 @@ FST_API const fst_column_info *fst_column_at(int index);
 /* The values of a sample in all columns, fst_column_count() of them, in their order. */
 FST_API void fst_column_values(const fst_sample *sample, double *values);
 
-/* As fst_unit_shown(), for a column: angular velocities are in rad/s. */
-FST_API double fst_column_shown(const fst_column_info *column, fst_shown_units units, const fst_scales *scales,
-                                const char **name);
-
 /* A trajectory that was read from .h5 or .csv: columns[i][row], in the order of fst_column_at(). */
 typedef struct fst_table {
     size_t rows;
@@ -168,19 +148,22 @@ typedef struct fst_table {
 FST_API fst_status fst_trajectory_read(const char *path, fst_table *table, fst_error *error);
 FST_API void fst_table_free(fst_table *table);
 
+/* Run `params` and keep the samples from the discard on in memory instead of a file; free the table with
+ * fst_table_free().  `progress` may be NULL. */
+FST_API fst_status fst_collect_run(const fst_params *params, const fst_progress *progress,
+                                   fst_run_result *result, fst_table *table, fst_error *error);
+/* The column of that name; NULL: there is none. */
+FST_API const double *fst_collected(const fst_table *table, const char *name);
+
 /* ------------------------------------------------------------------ figures */
 
 /* What a figure of a trajectory shows. */
-typedef enum {
-    FST_FIGURE_PATH,         /* the lab path coloured by a quantity, arrows of the horizontal moment */
-    FST_FIGURE_LOCAL_N,      /* the path of n in the local frame (r, alpha, z) */
-    FST_FIGURE_RADIUS_FIELD, /* r and |B| against Phi over half a revolution of the magnet */
-    FST_FIGURE_TIME,         /* quantities against time, a panel each */
-    FST_FIGURE_SECTION,      /* the Poincare section: one quantity against another where Phi passes pi/2 */
-    FST_FIGURE_RAMP          /* quantities against the drive's frequency, for a ramp */
-} fst_figure_kind;
+typedef enum { FST_FIGURES(FST_ROW_ENUM) FST_FIGURE_COUNT } fst_figure_kind;
 
 #define FST_FIGURE_KEYS 6
+
+/* The kind of figure that shows a trajectory best: of a ramp its means over the drive, else the path. */
+FST_API fst_figure_kind fst_figure_kind_of(const fst_table *table);
 
 typedef struct fst_figure_options {
     uint32_t cookie;
@@ -188,13 +171,15 @@ typedef struct fst_figure_options {
     const char *colour; /* a column's name: "n_z", "slip", "angle", ... */
     int arrows;         /* draw arrows of the horizontal moment */
     int inset;          /* draw the path of the moment in the local frame as an inset of the path's figure */
-    double from, to;    /* drive periods shown; NAN: from the discard, for as long as makes a good picture */
-    double zoom[4];     /* x0 x1 y0 y1 in mm; NAN: everything */
-    const char *title;  /* NULL: made from the scene */
+    double from,
+        to; /* drive periods shown; NAN: from the discard, for as long as makes a good picture; all of a ramp */
+    double zoom[4];    /* x0 x1 y0 y1 in mm; NAN: everything */
+    const char *title; /* NULL: made from the scene */
     /* Columns that figures of time, sections and ramps show; NULL ends a shorter list, an empty one is chosen.
      */
     const char *keys[FST_FIGURE_KEYS];
     fst_shown_units units; /* as given: lengths in mm for paths, otherwise scaled */
+    int from_magnet;       /* the path as seen from the turning magnet */
 } fst_figure_options;
 FST_API fst_figure_options fst_default_figure_options(void);
 
@@ -214,19 +199,19 @@ FST_API fst_status fst_figure_branch(const fst_branch *branch, const char *obser
 
 /* What a map of the field shows: |B|, a component of B, the horizontal magnetic force on a bead whose moment
  * lies along the field, or the load of such a bead on the plate. */
-typedef enum {
-    FST_FIELD_STRENGTH,
-    FST_FIELD_X,
-    FST_FIELD_Y,
-    FST_FIELD_Z,
-    FST_FIELD_FORCE,
-    FST_FIELD_LOAD
-} fst_field_quantity;
+typedef enum { FST_FIELDS(FST_ROW_ENUM) FST_FIELD_COUNT } fst_field_quantity;
 typedef struct fst_field_options {
+    uint32_t cookie;
     fst_field_quantity quantity;
     double height; /* over the magnet's reference plane, in l; NAN: that of a bead's centre */
     fst_shown_units units;
+    double half_width, half_height; /* of the map, in l; NAN: what shows the magnet */
 } fst_field_options;
+/* The strength |B| at the height of the bead's centre, in the units as given. */
+FST_API fst_field_options fst_default_field_options(void);
+
+/* Draw such a map to OUT.(svg|pdf|png), as fst_figure_trajectory() does.  Without options (NULL) it is that of
+ * the defaults. */
 FST_API fst_status fst_figure_field_map(const fst_params *params, const fst_field_options *options,
                                         const char *out, fst_error *error);
 
@@ -234,75 +219,11 @@ FST_API fst_status fst_figure_field_map(const fst_params *params, const fst_fiel
 FST_API fst_status fst_figure_field(const fst_params *params, fst_shown_units units, const char *out,
                                     fst_error *error);
 
-/* What an axis of a figure shows: the values times `factor`, with the label "mean radius ⟨r⟩ (mm)".  An
- * underscore in it lowers the letter behind it. */
-typedef struct fst_quantity {
-    double factor;
-    char label[128];
-} fst_quantity;
-
-/* A parameter, whose values are SI (angles in degrees, scaled for numbers). */
-FST_API fst_quantity fst_quantity_of_parameter(const char *key, fst_shown_units units,
-                                               const fst_scales *scales);
-
-/* A number that describes a run or a point of a branch, in `unit` as the tables name it. */
-FST_API fst_quantity fst_quantity_of_result(const char *key, const char *unit, fst_shown_units units,
-                                            const fst_scales *scales);
-
-/* A column of a trajectory; the load is shown in weights of the bead, in all units. */
-FST_API fst_quantity fst_quantity_of_column(const fst_column_info *column, fst_shown_units units,
-                                            const fst_params *params);
-
-/* The units in which a figure over this parameter is shown where nobody asked for any. */
-FST_API fst_shown_units fst_units_of_parameter(const char *key);
-
-/* Colours of curves (Okabe and Ito's palette), which colour-blind readers can tell apart. */
-typedef enum {
-    FST_COLOUR_BLACK,
-    FST_COLOUR_BLUE,
-    FST_COLOUR_VERMILION,
-    FST_COLOUR_GREEN,
-    FST_COLOUR_PURPLE,
-    FST_COLOUR_GREY,
-    FST_COLOUR_SKY,
-    FST_COLOUR_ORANGE
-} fst_colour;
-
-/* "#0072b2" */
-FST_API const char *fst_colour_code(fst_colour colour);
-
-/* Colours of a quantity: of both signs from blue over grey to vermilion; of one sign by its use.  `line`, from
- * light green to dark violet, is for lines on white; `map`, from nearly white to blue, is for areas with dark
- * lines on them. The definition is a list of places and colours, "0 '#fbfdff', 0.35 '#d3e3f2', ...". */
-typedef enum { FST_PALETTE_DIVERGING, FST_PALETTE_LINE, FST_PALETTE_MAP } fst_palette;
-FST_API const char *fst_palette_definition(fst_palette palette);
-
-/* A smooth curve through points that are few: `parts` points for each piece between neighbours, and the last
- * point, are put into `to_x` and `to_y`, which need room for parts (count - 1) + 1; returns how many there are.
- * The curve passes every point, and is drawn for axes on which lengths `wide` and `tall` look alike.  All
- * numbers must be finite. */
-FST_API size_t fst_smooth(const double *x, const double *y, size_t count, int parts, double wide, double tall,
-                          double *to_x, double *to_y);
-
-/* How all figures name and colour a regime and a type of special points: "families cross", "#009e73". */
-typedef struct fst_look {
-    const char *words, *colour;
-} fst_look;
-FST_API fst_look fst_regime_look(fst_regime regime);
-FST_API fst_look fst_special_look(fst_special_type type);
-
-/* What figures show of the points of a branch: the index-th observable, NULL beyond the end. */
-typedef struct fst_observable_info {
-    const char *name, *unit;
-    size_t offset; /* of the double in fst_branch_point */
-} fst_observable_info;
-FST_API const fst_observable_info *fst_branch_observable_at(int index);
-
 /* ------------------------------------------------------------------ sweeps */
 
 /* Whether a run starts from the end state of its neighbour along the first axis, and in which direction of that
  * axis. */
-typedef enum { FST_CARRY_NO, FST_CARRY_UP, FST_CARRY_DOWN } fst_carry;
+typedef enum { FST_CARRIES(FST_ROW_ENUM) FST_CARRY_COUNT } fst_carry;
 
 /* How far a sweep is, or how it ended. */
 typedef struct fst_sweep_counts {
@@ -322,6 +243,7 @@ typedef struct fst_sweep_counts {
      * again, and the damaged file lies beside it as FILE.damaged. */
     int repaired;
     int64_t lost;
+    int64_t begun_anew; /* runs begun anew, because what was saved of them after a while is damaged */
 } fst_sweep_counts;
 
 typedef struct fst_sweep_options {
@@ -369,7 +291,7 @@ FST_API fst_sweep_options fst_default_sweep_options(void);
 FST_API fst_status fst_sweep(const fst_params *params, const char *path, const fst_sweep_options *options,
                              fst_sweep_counts *counts, fst_error *error);
 
-typedef enum { FST_EXPORT_CSV, FST_EXPORT_JSON, FST_EXPORT_HDF5 } fst_export_format;
+typedef enum { FST_EXPORTS(FST_ROW_ENUM) FST_EXPORT_COUNT } fst_export_format;
 
 /* Write the rows of a sweep's database in the order of the points, as CSV with a line of column names; as JSON,
  * a list of objects with the keys of `run`; or as HDF5, a data set for each column.  They go to the file `out`
@@ -379,8 +301,8 @@ FST_API fst_status fst_sweep_export(const char *path, fst_export_format format, 
                                     fst_error *error);
 
 /* Write chosen columns as CSV: the varied parameters and `keys` (count = 0: regime, mean_r, std_r,
- * mean_alpha_dot), in the wanted units, each name with its unit behind it: "mean_r [mm]".  Fails where rows are
- * damaged. */
+ * mean_alpha_dot), in the wanted units, each name with its unit behind it: "mean_r [mm]"; and `status`: done,
+ * missing where there is no row, or why the run failed.  Fails where rows are damaged. */
 FST_API fst_status fst_sweep_export_keys(const char *path, const char *const *keys, int count,
                                          fst_shown_units units, const char *out, FILE *stream,
                                          fst_error *error);
@@ -481,35 +403,44 @@ FST_API fst_status fst_camera_film(const fst_table *table, const char *out, cons
                                    const fst_camera_options *options, fst_camera_facts *facts,
                                    fst_error *error);
 
-/* ------------------------------------------------------------------ the paper */
+/* ------------------------------------------------------------------ programs of your own */
 
-typedef struct fst_paper_options {
-    uint32_t cookie;
-    int reduced; /* fewer points and shorter runs, for tests */
-    int starts;  /* starts of the search for a paramagnetic bead that counter-rotates; 0: the usual number */
-    int films;   /* make the supplement's two films too, film_0215.mp4 and film_04.mp4 */
-    const char *only; /* compute only this statement, by its id in paper.json; NULL: all */
-    char **summary;   /* becomes Table 1 and a count of the verdicts as text or, with `only`, the statement as
-                         JSON; free() it.  NULL: not wanted */
-    const fst_progress *progress; /* NULL: nobody is told; `what` names the stage */
-} fst_paper_options;
-FST_API fst_paper_options fst_default_paper_options(void);
+/* Write a file that appears whole or not at all: under a temporary name beside its place, synced, and renamed.
+ * Without a text (NULL), only see whether it could be written. */
+FST_API fst_status fst_file_write(const char *path, const char *text, size_t size, fst_error *error);
 
-/* Compute what the paper shows, by both dynamics, and write paper.json, the figures and report.html into
- * `directory` (made if missing).  After an interruption or a failure they hold what was done until then, and
- * say "complete": false.  With `only` nothing is computed that the statement does not need, nothing is written,
- * and `directory` may be NULL. */
-FST_API fst_status fst_paper(const char *directory, const fst_paper_options *options, fst_error *error);
+/* A text that is collected by printing into `stream`, whole or not at all.  (A stream of open_memstream() forgets
+ * that memory ran out: its text may lack any part.)  Do not move the struct meanwhile. */
+typedef struct fst_printed {
+    FILE *stream;
+    char *text, *buffer;
+    size_t size, room;
+    int failed; /* set it where a part cannot be made: then there is no text */
+} fst_printed;
 
-/* Compute maps of what becomes of a bead that rubs dry, over the coefficient of friction and the drive, from
- * four starts, into `directory` (made if missing): for each start a sweep's database, its rows as CSV and
- * figures; and a table of outcomes, as Markdown.  They take many minutes.  Killed or interrupted at any moment,
- * the same call goes on. */
-FST_API fst_status fst_paper_dry_maps(const char *directory, const fst_progress *progress, fst_error *error);
+/* Begin; NULL: no memory.  Otherwise this returns the stream. */
+FST_API FILE *fst_print_begin(fst_printed *printed);
+/* Close the stream.  Returns the text, of printed->size bytes and a zero; free() it.  NULL: it failed, mostly for
+ * want of memory. */
+FST_API char *fst_print_end(fst_printed *printed);
 
-/* The rules of the verdicts, and the list of the paper's statements with their criteria, as Markdown; free()
- * it.  NULL: no memory. */
-FST_API char *fst_paper_statements_text(void);
+/* Independent pieces of work, for several threads. */
+typedef struct fst_work {
+    void *user;
+    int count;
+    /* Do piece `index`.  Pieces may run at the same time and in any order.  If each writes only into its own
+     * place, the results do not depend on the threads. */
+    fst_status (*piece)(void *user, int index, fst_error *error);
+    /* Told every 20 ms or more often, by the calling thread alone, which fraction of the pieces is done; NULL:
+     * nobody is told.  A status other than FST_OK ends the work: no new piece begins.  A piece at work is not
+     * broken off, so a long piece must ask by itself: */
+    const fst_progress *progress;
+    fst_progress *within; /* becomes what pieces may ask whether to go on, in any thread; NULL: they do not */
+} fst_work;
+
+/* Do all pieces on as many threads as this process has processors, and wait for them.  If a piece fails, no new
+ * one begins; the status and error are those of the failed piece with the lowest index. */
+FST_API fst_status fst_parallel(const fst_work *work, fst_error *error);
 
 /* ------------------------------------------------------------------ the lab: a page with the same physics */
 
@@ -525,8 +456,10 @@ FST_API fst_status fst_lab_address(const fst_params *params, char address[FST_LA
 /* Open such an address in the desktop's browser, by xdg-open.  *opened is 0 where there is no desktop. */
 FST_API fst_status fst_lab_open(const char *address, int *opened, fst_error *error);
 
-/* "gnuplot yes, hdf5 yes, ...": the optional parts, and whether this build and machine have them. */
-FST_API const char *fst_tools_components(void);
+/* "gnuplot yes, hdf5 yes, mpi no (...), ...": which optional parts this build and machine have, and what is missing
+ * for the others.  Modules are loaded to find out, which takes some 0.05 s.  Returns `text`. */
+enum { FST_COMPONENTS_SIZE = 2048 };
+FST_API const char *fst_tools_components(char text[FST_COMPONENTS_SIZE]);
 
 #ifdef __cplusplus
 }

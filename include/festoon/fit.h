@@ -16,13 +16,7 @@ extern "C" {
 /* ------------------------------------------------------------------ the table of points */
 
 /* What may be measured at a frequency of the drive. */
-typedef enum {
-    FST_MEASURED_MEAN_R,         /* <r>, m */
-    FST_MEASURED_STD_R,          /* delta r, m */
-    FST_MEASURED_BEAD_FREQUENCY, /* turns a second, Hz; negative where the bead goes round against the magnet,
-                                    which turns counter-clockwise where its frequency is positive */
-    FST_MEASURED_COUNT
-} fst_measured;
+typedef enum { FST_MEASURED_QUANTITIES(FST_ROW_ENUM) FST_MEASURED_COUNT } fst_measured;
 
 /* The name of its column: "mean_r", "std_r", "bead_frequency". */
 FST_API const char *fst_measured_name(fst_measured what);
@@ -45,11 +39,8 @@ typedef struct fst_points {
 FST_API void fst_points_free(fst_points *points);
 
 /* Read a table with a line of column names with units, `frequency [Hz]`, `mean_r [mm]`, `mean_r_error [mm]`,
- * and so on, and optionally `frequency_error [Hz]`, in any order and with any units of their kinds.  Columns
- * are separated by commas, semicolons or tabs; without commas between them, numbers may have decimal commas.
- * Lines that begin with
- * '#' and empty lines are stepped over.  FST_BAD_INPUT: error->where is "FILE:LINE", the sentence names the
- * column. */
+ * and so on, and optionally `frequency_error [Hz]`, in any order and with any units of their kinds, in any
+ * dialect of text.  FST_BAD_INPUT: error->where is "FILE:LINE", the sentence names the column. */
 FST_API fst_status fst_points_read(const char *path, fst_points *points, fst_error *error);
 
 /* A measured track as a row of such a table.  Numbers without an error stay out; `drive` is for a track that
@@ -149,7 +140,7 @@ typedef struct fst_fit {
     fst_fit_rival rivals[FST_FIT_MOST_RIVALS];
     int rival_count;
     int bootstrap_count; /* refits that succeeded */
-    char weakest[1024];  /* the direction in which parameters are least known, and what would help */
+    char weakest[1280];  /* the direction in which parameters are least known, and what would help */
     char *remarks;       /* for people, a line each; "" where there is nothing to say */
 } fst_fit;
 
@@ -168,6 +159,12 @@ FST_API fst_status fst_fit_track(const fst_params *params, fst_track *track, con
 
 /* One JSON document, as festoon_tools.h says of the others. */
 FST_API char *fst_fit_json(const fst_params *params, const fst_fit *fit);
+
+/* The chart of such a figure, or of one quantity alone: `what` it is, or -1 for all.  Each has two panels, the points
+ * over the curve, and what is left of them.  fst_chart_free() frees it.  FST_BAD_INPUT: the fit has no curves. */
+struct fst_chart;
+FST_API fst_status fst_chart_of_fit(const fst_points *points, const fst_fit *fit, int what,
+                                    struct fst_chart **chart, fst_error *error);
 
 /* Draw the points with their errors over the model's curves with their bands, to OUT.(svg|pdf|png). */
 FST_API fst_status fst_figure_fit(const fst_points *points, const fst_fit *fit, const char *out,

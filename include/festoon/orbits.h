@@ -73,18 +73,8 @@ typedef struct fst_locked {
     int found; /* the number of starts from which Newton's method came here */
 } fst_locked;
 
-/* Dry friction: locked states whose contact does not slip form families.  Why one ends: static friction holds
- * no more, the bead lifts off, it spins or stands too far away to be followed on, the family is a closed curve.
- */
-typedef enum {
-    FST_ROLLING_CONE,
-    FST_ROLLING_LIFTED,
-    FST_ROLLING_SPIN,
-    FST_ROLLING_RADIUS,
-    FST_ROLLING_CLOSED,
-    FST_ROLLING_LOST
-} fst_rolling_end;
-/* "cone", "lifted", "spin", "radius", "closed", "lost" */
+/* Why a family of locked states whose contact does not slip ends. */
+typedef enum { FST_ROLLING_ENDS(FST_ROW_ENUM) FST_ROLLING_COUNT } fst_rolling_end;
 FST_API const char *fst_rolling_end_name(fst_rolling_end end);
 
 typedef struct fst_rolling_lock {
@@ -115,25 +105,9 @@ FST_API fst_status fst_locked_find(const fst_params *params, const fst_progress 
                                    fst_locked_list *list, fst_error *error);
 FST_API void fst_locked_free(fst_locked_list *list);
 
-typedef enum {
-    FST_BRANCH_COUNTER, /* the counter-rotating family */
-    FST_BRANCH_LOCKED,  /* every family of equilibria */
-    FST_BRANCH_ALL      /* these, the orbits that are born at their Hopf points, and all that leave those */
-} fst_branch_kind;
-/* "counter", "locked", "all" */
+typedef enum { FST_BRANCH_KINDS(FST_ROW_ENUM) FST_BRANCH_COUNT } fst_branch_kind;
 FST_API const char *fst_branch_kind_name(fst_branch_kind kind);
-typedef enum {
-    FST_SPECIAL_FOLD,
-    FST_SPECIAL_PITCHFORK,
-    FST_SPECIAL_PERIOD_DOUBLING,
-    FST_SPECIAL_HOPF,
-    FST_SPECIAL_NEIMARK_SACKER,
-    FST_SPECIAL_ORIGIN_CROSSING,
-    FST_SPECIAL_TRANSCRITICAL, /* two families pass through each other */
-    FST_SPECIAL_GRAZING        /* dry friction: an orbit gains or loses a rest of the contact */
-} fst_special_type;
-/* "fold", "pitchfork", "period-doubling", "hopf", "neimark-sacker", "origin-crossing", "transcritical",
- * "grazing" */
+typedef enum { FST_SPECIALS(FST_ROW_ENUM) FST_SPECIAL_COUNT } fst_special_type;
 FST_API const char *fst_special_name(fst_special_type type);
 
 /* A point of a branch. */
@@ -159,26 +133,7 @@ typedef struct fst_special {
 } fst_special;
 
 /* Why a branch ends. */
-typedef enum {
-    FST_END_NONE,            /* not told: it was read from a file older than these types */
-    FST_END_RANGE,           /* at the end of the range of a parameter */
-    FST_END_CLOSED,          /* it closes on itself; such a branch has this one end */
-    FST_END_SYMMETRIC_ORBIT, /* S1 orbits meet the branch of symmetric ones */
-    FST_END_EQUILIBRIUM,     /* orbits shrink to an equilibrium, at its Hopf point */
-    FST_END_HIGHER_SYMMETRY, /* equilibria meet a branch of higher symmetry */
-    FST_END_OTHER_BRANCH,    /* equilibria meet another branch */
-    FST_END_PERIOD,          /* the period grows without bound */
-    FST_END_RADIUS,          /* the bead is beyond the magnet's field */
-    FST_END_SPIN,            /* the spin of an equilibrium grows without bound */
-    FST_END_REAL_AXIS,       /* over two parameters: the critical pair meets on the real axis */
-    FST_END_NOT_BEGUN,       /* over two parameters: the point is degenerate, and no curve leaves it */
-    FST_END_COUNT_LIMIT,     /* so many points were followed that it was given up */
-    FST_END_ROLLS,           /* dry friction: the slip of a locked bead falls to nothing, beyond it rolls */
-    FST_END_LIFTED,          /* dry friction: a locked bead lifts off the plate */
-    FST_END_LOST             /* no further point was found */
-} fst_end_type;
-/* "range", "closed", "symmetric-orbit", "equilibrium", "higher-symmetry", "other-branch", "period", "radius",
- * "spin", "real-axis", "not-begun", "count-limit", "rolls", "lifted", "lost"; "none" */
+typedef enum { FST_ENDS(FST_ROW_ENUM) FST_END_COUNT } fst_end_type;
 FST_API const char *fst_end_name(fst_end_type type);
 
 /* An end of a branch, and why it ends there. */

@@ -52,7 +52,7 @@ FST_API fst_status fst_grid_params(const fst_grid *grid, int64_t point, fst_para
 /* The forms of arithmetic: which operations a step is made of.  Within one form the bits of a result depend on
  * its parameters alone, whatever runs beside it.  The portable form (+ - * / sqrt, nothing fused) has the bits
  * of fst_run() on every machine. */
-typedef enum { FST_ARITHMETIC_PORTABLE, FST_ARITHMETIC_AVX2, FST_ARITHMETIC_AVX512 } fst_arithmetic;
+typedef enum { FST_ARITHMETICS(FST_ROW_ENUM) FST_ARITHMETIC_COUNT } fst_arithmetic;
 FST_API const char *fst_arithmetic_name(fst_arithmetic arithmetic);
 
 /* The fastest form that this processor can do. */

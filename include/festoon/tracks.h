@@ -81,11 +81,8 @@ typedef struct fst_measure_options {
 FST_API fst_measure_options fst_default_measure_options(void);
 
 /* How the bead goes round in the film. */
-typedef enum {
-    FST_MOTION_TURNING, /* it circles, at another rate than the magnet */
-    FST_MOTION_LOCKED,  /* it goes round with the magnet: locked or librating */
-    FST_MOTION_UNKNOWN  /* it circles, but the film does not tell how the magnet turns */
-} fst_motion;
+typedef enum { FST_MOTIONS(FST_ROW_ENUM) FST_MOTION_COUNT } fst_motion;
+FST_API const char *fst_motion_name(fst_motion motion);
 
 /* What was measured of a track.  A number that is unknown or has no meaning here is NAN. */
 typedef struct fst_measurement {
@@ -132,6 +129,25 @@ FST_API fst_status fst_measure_track(fst_track *track, const fst_measure_options
 FST_API fst_status fst_figure_measurement(const fst_track *track, const fst_measurement *measured,
                                           const fst_params *compare, const char *out,
                                           const fst_progress *progress, fst_error *error);
+
+/* The places of a measured track as that figure shows them: about the centre that was found, without the tilt
+ * of the camera; lost frames are left out. */
+typedef struct fst_placed_track {
+    size_t count;
+    size_t *row;             /* of the track */
+    double *t;               /* s, or frames since the first one */
+    double *x, *y;           /* on the plate, in measured->length_unit */
+    double *seen_x, *seen_y; /* from the turning magnet; NAN: how it turns is not known */
+    double *r, *fitted;      /* the distance from the centre, and what was fitted to it */
+    const char *clock;       /* "s" or "frames" */
+    void *memory;            /* of fst_placed_track_free() */
+} fst_placed_track;
+FST_API fst_status fst_place_track(const fst_track *track, const fst_measurement *measured,
+                                   fst_placed_track *placed, fst_error *error);
+FST_API void fst_placed_track_free(fst_placed_track *placed);
+
+/* What was fitted to the distance from the centre, at a time of a placed track. */
+FST_API double fst_fitted_radius(const fst_measurement *measured, double t);
 
 /* Lay measured points with their errors over the curves of a sweep over the drive (a database) or of a branch
  * over the drive (JSON), in mm and Hz, a panel for each quantity.  chi^2 is the sum over all measured numbers

@@ -1,16 +1,21 @@
 /* controls.js - the parameters as controls, made from the library's own table.  A row has a name, a field that takes a
  * value with a unit, and where it makes sense a slider; what the library refuses is said below, in its own words. */
 
+import { STATUS } from "./core.js";
 import { T } from "./texts.js";
 
 /* Where sliders begin and end, in the unit that is shown; other rows go from a quarter to four times their default. */
 const SLIDERS = {
     "drive.frequency": [1, 30, 0.1], "bead.radius": [1, 5, 0.05], "bead.mass": [0.05, 3, 0.01], "magnet.depth": [5, 40, 0.1],
     "magnet.width": [0, 80, 0.5], "magnet.half_length": [8, 50, 0.5], "magnet.lines": [1, 15, 1], "model.kappa": [0.1, 6, 0.01],
-    "friction.gamma": [30, 1000, 1], "friction.mu": [0, 1, 0.01], "friction.rolling_resistance": [0, 0.1, 0.001],
+    "bead.inertia": [0.01, 0.66, 0.01], "friction.gamma": [30, 1000, 1], "friction.mu": [0, 1, 0.01], "friction.rolling_resistance": [0, 0.1, 0.001],
     "start.r": [0.1, 2, 0.01], "start.phi": [-180, 180, 1], "plate.radius": [30, 400, 5], "plate.gravity": [0, 20, 0.1],
 };
-const SHOWN = { m: ["mm", 1e3], kg: ["g", 1e3], T: ["mT", 1e3], Hz: ["Hz", 1], "1/s": ["1/s", 1], deg: ["deg", 1], "m/s": ["mm/s", 1e3], "m/s^2": ["m/s^2", 1] };
+/* The unit in which a row is shown, by the table's own, and its factor. */
+export const SHOWN = {
+    m: ["mm", 1e3], kg: ["g", 1e3], T: ["mT", 1e3], Hz: ["Hz", 1], "1/s": ["1/s", 1], deg: ["deg", 1], "m/s": ["mm/s", 1e3], "m/s^2": ["m/s^2", 1],
+    "A m^2": ["mA m^2", 1e3], "kg/m^3": ["kg/m^3", 1], Pa: ["MPa", 1e-6],
+};
 const MAIN = ["drive.frequency", "friction.law", "friction.mu", "model.kappa", "magnet.depth", "bead.radius"];
 const HIDDEN = new Set(["magnet.file", "magnet.parts"]);
 
@@ -28,10 +33,15 @@ export { element };
 
 const plain = (value) => String(Number(value.toPrecision(8)));
 
+/* Whether the browser refused memory: to the library, to a new instance of it, or to a script. */
+const isMemory = (error) => error.status === STATUS.NO_MEMORY || /out of memory|allocation failed|could not allocate/i.test(error.message || "");
+
 /* What the library says, without the names of C. */
 export function sentence(error) {
+    if (isMemory(error))
+        return T.noMemory;
     const words = (error.message || String(error)).replace(/\s*\((?:fst_\w+\(\)|festoon schema)[^)]*\)/g, "");
-    return error.where && !words.startsWith(`${error.where}: `) ? `${error.where}: ${words}` : words;
+    return error.where && !words.startsWith(error.where) ? `${error.where}: ${words}` : words;
 }
 
 export class Controls {
@@ -75,7 +85,7 @@ export class Controls {
         });
         const row = { info, unit, factor, error, slider: null };
         if (info.kind === "choice") {
-            row.field = element("select", { id, "aria-describedby": `${id}-error` }, ...info.names.map((name) => element("option", { value: name }, name)));
+            row.field = element("select", { id, "aria-describedby": `${id}-error` }, ...info.names.map((name) => element("option", { value: name }, T.choices[info.key]?.[name] || name)));
             row.field.addEventListener("change", () => this.take(row, row.field.value));
         } else {
             row.field = element("input", { id, type: "text", inputmode: "text", autocomplete: "off", spellcheck: "false", size: "9", "aria-describedby": `${id}-error` });
@@ -122,7 +132,7 @@ export class Controls {
                 continue;
             }
             row.field.value = /[a-z]/i.test(texts[key] || "") ? texts[key] : (said === "" ? "" : `${plain(value * factor)}${unit && ` ${unit}`}`);
-            row.field.placeholder = said === "" ? T.notGiven : "";
+            row.field.placeholder = said === "" ? T.notGiven(unit) : "";
             if (row.slider && row.slider !== from && said !== "")
                 row.slider.value = String(value * factor);
         }

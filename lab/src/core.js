@@ -1,8 +1,8 @@
 /* core.js - the library in WebAssembly, as objects and texts of JavaScript.  Page, workers and tests use this file. */
 
-export const STATUS = { OK: 0, BAD_INPUT: 1, INTERRUPTED: 8 };
+export const STATUS = { OK: 0, BAD_INPUT: 1, NO_MEMORY: 6, INTERRUPTED: 8 };
 const MOST_POINTS = 1e5;
-export const STOP = { TIME: 0, EDGE: 2, LIFT_OFF: 3 };
+export const STOP = { TIME: 1, EDGE: 4, LIFT_OFF: 8 }; /* FST_AT_* */
 
 /* The columns of a row of the motion: lab.c has the same names in the same order. */
 const WIDTHS = [
@@ -18,8 +18,8 @@ for (const [name, width] of WIDTHS) {
 }
 export const COLUMNS = columns;
 
-const GROUP_NAMES = ["eps", "h", "lambda", "kappa", "a", "b", "omega", "gravity", "plate_radius", "length_unit_m",
-    "time_unit_s", "mass_kg", "field_unit_t", "lines"];
+const GROUP_NAMES = ["eps", "inertia", "h", "lambda", "kappa", "a", "b", "omega", "gravity", "plate_radius",
+    "length_unit_m", "time_unit_s", "mass_kg", "field_unit_t", "lines"];
 const KINDS = ["real", "integer", "choice", "text"];
 
 /* An error of the library: `where` names a key or a time, `message` is its sentence. */
@@ -76,7 +76,7 @@ export class Core {
         const instance = await WebAssembly.instantiate(module, imports(() => core.c.memory, heard));
         core.c = instance.exports;
         core.c._initialize?.();
-        core.bead = core.c.lab_new();
+        core.bead = core.given(core.c.lab_new());
         if (core.c.lab_columns() !== COLUMNS)
             throw new Error("lab.c and core.js name different columns");
         core.version = core.text(core.c.lab_version());
@@ -89,23 +89,32 @@ export class Core {
 
     text(at) {
         const bytes = new Uint8Array(this.c.memory.buffer);
-        let end = at;
+        const from = at >>> 0;
+        let end = from;
         while (bytes[end])
             ++end;
-        return new TextDecoder().decode(bytes.slice(at, end));
+        return new TextDecoder().decode(bytes.slice(from, end));
+    }
+
+    /* An address that the library gave; 0 says that the browser gave it no more memory.  Beyond 2 GB an address is a
+     * negative number to JavaScript. */
+    given(at) {
+        if (!at)
+            throw new FestoonError(STATUS.NO_MEMORY, "", "out of memory");
+        return at >>> 0;
     }
 
     /* Call with a text as UTF-8 in the module's memory. */
     withTexts(texts, call) {
-        const places = texts.map((text) => {
-            const bytes = new TextEncoder().encode(String(text).replaceAll("\0", "?"));
-            const at = this.c.lab_alloc(bytes.length + 1);
-            const memory = new Uint8Array(this.c.memory.buffer);
-            memory.set(bytes, at);
-            memory[at + bytes.length] = 0;
-            return at;
-        });
+        const places = [];
         try {
+            for (const text of texts) {
+                const bytes = new TextEncoder().encode(String(text).replaceAll("\0", "?"));
+                const at = this.given(this.c.lab_alloc(bytes.length + 1)), memory = new Uint8Array(this.c.memory.buffer);
+                places.push(at);
+                memory.set(bytes, at);
+                memory[at + bytes.length] = 0;
+            }
             return call(...places);
         } finally {
             places.forEach((at) => this.c.lab_release(at));
@@ -113,7 +122,7 @@ export class Core {
     }
 
     doubles(at, count) {
-        return new Float64Array(this.c.memory.buffer, at, count);
+        return new Float64Array(this.c.memory.buffer, at >>> 0, count);
     }
 
     check(status) {
@@ -173,12 +182,19 @@ export class Core {
         return this.c.lab_value(this.bead, this.places.get(key));
     }
 
-    /* All parameters are those of `scene`, an object of keys with numbers or texts, over the defaults. */
+    /* All parameters are those of `scene`, an object of keys with numbers or texts, over the defaults.  Where one is bad,
+     * all stay as they were. */
     setScene(scene) {
-        this.reset();
-        for (const [key, value] of Object.entries(scene))
-            this.set(key, value);
-        this.check(this.c.lab_check(this.bead));
+        this.c.lab_keep(this.bead);
+        try {
+            this.reset();
+            for (const [key, value] of Object.entries(scene))
+                this.set(key, value);
+            this.check(this.c.lab_check(this.bead));
+        } catch (error) {
+            this.c.lab_undo(this.bead);
+            throw error;
+        }
     }
 
     warning() {
@@ -188,7 +204,7 @@ export class Core {
     groups() {
         const at = this.c.lab_groups(this.bead);
         if (!at)
-            return null;
+            throw new FestoonError(STATUS.BAD_INPUT, ...[0, 1].map((which) => this.text(this.c.lab_error(this.bead, which))));
         const values = this.doubles(at, GROUP_NAMES.length);
         return Object.fromEntries(GROUP_NAMES.map((name, i) => [name, number(values[i])]));
     }
@@ -227,7 +243,7 @@ export class Core {
         const [regime, reason, symmetry, dynamics] = [0, 1, 2, 3].map((which) =>
             this.text(this.c.lab_result_text(this.bead, which)) || null);
         const scene = this.scene();
-        const run = { regime, reason, symmetry, dynamics, controller: scene["run.controller"] };
+        const run = { regime, reason, symmetry, dynamics };
         this.results.forEach((row, i) => {
             run[row.name] = number(this.c.lab_result(this.bead, i));
         });

@@ -96,9 +96,12 @@ export class Files {
                 throw new Error("the file is larger than 20 MB");
             const text = await file.text();
             if (/\.(ya?ml)$/i.test(file.name)) {
-                lab.lesson.close();
-                const view = { ...lab.viewWords(), "ui.ramp": "0", "ui.settle": "0" }; /* a scene begins at its own start */
-                const wrong = lab.open({ scene: readScene(text), view });
+                const scene = readScene(text), view = { ...lab.viewWords(), "ui.ramp": "0", "ui.settle": "0" }; /* a scene begins at its own start */
+                let wrong = null;
+                lab.replace(() => {
+                    lab.lesson.close();
+                    wrong = lab.open({ scene, view });
+                });
                 lab.tell(wrong ? T.failed(name, wrong) : T.opened(name), Boolean(wrong));
             } else {
                 this.showTrack(readTrack(text));
@@ -113,7 +116,7 @@ export class Files {
         let scale = 1 / lab.units.mm;
         if (unit === "px")
             scale = (mean(lab.trail.samples.map((row) => row[COLUMN.r])) || 0.8) / mean(points.map((p) => Math.hypot(...p)));
-        lab.view.showTrack(points.map((p) => [p[0] * scale, p[1] * scale]));
+        lab.showTrack(points.map((p) => [p[0] * scale, p[1] * scale]));
         lab.panels.chooseCamera("above");
         lab.tell(T.trackShown(points.length, unit));
     }

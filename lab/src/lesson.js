@@ -18,7 +18,7 @@ export class Lesson {
         if (this.at >= 0)
             this.close();
         else
-            this.open(0);
+            this.lab.replace(() => this.open(0));
     }
 
     close() {
@@ -48,7 +48,7 @@ export class Lesson {
         });
         this.box.replaceChildren(this.heading, element("h3", {}, T.predict), element("p", {}, step.question), this.body, this.reply, this.steps());
         lab.hideTrail = true;
-        lab.view.showTrack(null);
+        lab.showTrack(null);
         lab.open({ scene: step.scene, view: { "ui.settle": String(step.settle ?? 0), ...step.view } });
         lab.play(false);
         document.body.classList.add("lesson-waits"); /* nothing tells the answer before it is given */
@@ -59,7 +59,7 @@ export class Lesson {
         const move = (text, by) => {
             const button = element("button", { type: "button" }, text);
             button.disabled = this.at + by < 0 || this.at + by >= LESSON.length;
-            button.addEventListener("click", () => this.open(this.at + by));
+            button.addEventListener("click", () => this.lab.replace(() => this.open(this.at + by)));
             return button;
         };
         return element("nav", { "aria-label": T.lesson }, move(T.back, -1), element("span", {}, T.lessonStep(this.at + 1, LESSON.length)), move(T.next, 1));

@@ -5,10 +5,11 @@ import { Controls, element, sentence } from "./controls.js";
 import { COLUMN, COLUMNS, Core, STOP } from "./core.js";
 import { Files } from "./files.js";
 import { Lesson } from "./lesson.js";
-import { bodiesOf } from "./magnet.js";
+import { bodiesOf, hullOf } from "./magnet.js";
+import { Pace } from "./pace.js";
 import { Panels } from "./panels.js";
 import { Pool } from "./pool.js";
-import { readAddress, writeAddress } from "./state.js";
+import { readAddress, takeGood, writeAddress } from "./state.js";
 import { PRESETS, T } from "./texts.js";
 import { QUANTITIES, SPACING, Trail, unitsOf } from "./trail.js";
 import { View2D } from "./view2d.js";
@@ -31,34 +32,63 @@ class Lab {
         this.trail = new Trail(ROOM);
         this.camera = new Camera();
         this.row = new Float64Array(COLUMNS);
-        this.playing = !window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+        this.playing = false;
         this.left = STOP.TIME;
-        this.share = 1;
+        this.pace = new Pace((now) => this.frame(now));
     }
 
     /* ------------------------------------------------------------ the view */
 
     openView() {
-        const canvas = $("view");
-        try {
-            this.view = new View3D(canvas, ROOM);
-        } catch {
-            const plain = canvas.cloneNode();
-            canvas.replaceWith(plain);
-            this.view = new View2D(plain);
-            this.camera.choose("above");
-            this.flat = true;
+        const solid = $("view"), plain = solid.cloneNode();
+        for (const canvas of [solid, plain]) {
+            canvas.setAttribute("aria-label", T.viewLabel);
+            this.camera.listen(canvas, () => this.wake());
         }
+        try {
+            const deep = new View3D(solid, ROOM);
+            solid.addEventListener("webglcontextlost", () => {
+                this.showThrough(new View2D(plain));
+                this.tell(T.lostWebgl);
+            });
+            solid.addEventListener("webglcontextrestored", () => {
+                this.showThrough(deep);
+                this.tell("");
+            });
+            this.showThrough(deep);
+        } catch {
+            this.showThrough(new View2D(plain));
+        }
+        new ResizeObserver(() => this.resize()).observe($("view-box"));
+    }
+
+    /* The picture is that of `view` from now on. */
+    showThrough(view) {
+        const there = $("view"), focused = there === document.activeElement;
+        if (there !== view.canvas)
+            there.replaceWith(view.canvas);
+        if (focused)
+            view.canvas.focus();
+        this.view = view;
+        this.camera.flat = view instanceof View2D;
+        if (this.units) {
+            this.furnish();
+            this.showTrack(this.track);
+        }
+        this.panels.showView();
+        this.resize();
+    }
+
+    resize() {
         const box = $("view-box");
-        new ResizeObserver(() => {
-            this.view.resize(box.clientWidth, box.clientHeight, window.devicePixelRatio || 1);
-            this.draw();
-        }).observe(box);
         this.view.resize(box.clientWidth, box.clientHeight, window.devicePixelRatio || 1);
-        this.camera.listen(this.view.canvas);
-        this.view.canvas.setAttribute("aria-label", T.viewLabel);
-        for (const name of ["pointermove", "wheel", "keydown"])
-            this.view.canvas.addEventListener(name, () => this.playing || this.draw());
+        this.draw(); /* at once: the new size has emptied the canvas */
+    }
+
+    showTrack(points) {
+        this.track = points;
+        this.view.showTrack(points);
+        this.wake();
     }
 
     furnish() {
@@ -66,10 +96,16 @@ class Lab {
         this.units = unitsOf(groups);
         this.groups = groups;
         const north = Math.sign(this.core.field(1, 0)[2]) || 1;
+        const bodies = bodiesOf(groups, north, this.core.parts(), this.core.value("magnet.depth"));
         this.view.furnish({
             eps: groups.eps, plateRadius: groups.plate_radius, ring: 10 / this.units.mm, fieldScale: Math.hypot(...b) || 1,
-            reach: Math.max(1.5, 1.25 * this.core.value("start.r")), bodies: bodiesOf(groups, north, this.core.parts(), this.core.value("magnet.depth")),
+            bodies, hull: hullOf(bodies, Math.max(1.2, 1.25 * this.core.value("start.r")), groups.eps),
         });
+    }
+
+    /* The picture is no longer what is the case: a frame is due. */
+    wake() {
+        this.pace.wake();
     }
 
     draw() {
@@ -92,7 +128,6 @@ class Lab {
         try {
             this.core.setScene(scene);
         } catch (error) {
-            this.core.setScene(this.scene);
             return sentence(error);
         }
         this.scene = { ...scene };
@@ -133,15 +168,16 @@ class Lab {
         } catch (error) {
             this.tell(sentence(error), true);
         }
-        this.draw();
+        this.wake();
     }
 
     /* Begin at start.*, after `settle` turns that are not shown. */
     begin() {
         try {
-            this.ramping = null;
             this.row = Float64Array.from(this.core.start(0));
+            this.ramping = null;
             this.trail.clear();
+            this.pace.reset();
             this.left = STOP.TIME;
             this.tell("");
             this.furnish();
@@ -155,7 +191,7 @@ class Lab {
         } catch (error) {
             this.tell(sentence(error), true);
         }
-        this.draw();
+        this.wake();
     }
 
     /* Go on without a trail.  Returns whether all of it was done. */
@@ -198,10 +234,11 @@ class Lab {
         }
     }
 
-    /* Go on by `seconds`, or by what `most` milliseconds of work are enough for. */
+    /* Go on by `seconds`, or by what `most` milliseconds of work are enough for.  Returns the seconds that are done. */
     advance(seconds, most = Infinity) {
-        if (this.left !== STOP.TIME)
-            return;
+        if (!this.units || this.left !== STOP.TIME)
+            return 0;
+        const before = this.row[COLUMN.time];
         const count = Math.max(1, Math.min(MOST_ROWS, Math.ceil(seconds * this.frequency() * ROWS_A_TURN)));
         const begun = performance.now();
         try {
@@ -219,6 +256,7 @@ class Lab {
             this.change("drive.frequency", `${to} Hz`);
             this.controls.show(null, this.scene);
         }
+        return this.row[COLUMN.time] - before;
     }
 
     take(done) {
@@ -230,30 +268,27 @@ class Lab {
     }
 
     frame(now) {
-        const passed = Math.min(0.1, (now - (this.before ?? now)) / 1e3);
-        this.before = now;
-        if (this.playing) {
-            const begun = performance.now();
-            this.advance((this.share * passed) / this.settings.slow, FRAME_MS);
-            const took = performance.now() - begun;
-            this.share = Math.max(0.05, Math.min(1, took > 24 ? this.share * 24 / took : this.share * 1.05));
-            this.draw();
-        }
-        this.panels.frame(now);
-        requestAnimationFrame((next) => this.frame(next));
+        if (this.playing)
+            this.pace.go(now, this.settings.slow, (seconds) => this.advance(seconds, FRAME_MS));
+        this.draw();
+        this.panels.frame(this.playing ? now : Infinity);
+        if (this.playing)
+            this.wake();
     }
 
     play(on) {
-        this.playing = on;
+        this.playing = on && Boolean(this.units) && this.left === STOP.TIME;
+        on = this.playing;
+        this.pace.reset();
+        this.wake();
         $("play").textContent = on ? T.pause : T.play;
         $("play").setAttribute("aria-pressed", String(on));
     }
 
     step() {
         this.play(false);
-        this.advance(1 / (64 * this.frequency()));
-        this.draw();
-        this.panels.frame(Infinity);
+        if (this.units)
+            this.advance(1 / (64 * this.frequency()));
     }
 
     restart() {
@@ -284,7 +319,7 @@ class Lab {
     }
 
     viewWords() {
-        const s = this.settings, words = { "ui.slow": String(s.slow), "ui.camera": this.camera.mode };
+        const s = this.settings, words = { "ui.slow": String(s.slow), "ui.camera": this.camera.chosen };
         if (s.colour !== "nz")
             words["ui.colour"] = s.colour;
         if (s.turns !== TURNS)
@@ -314,8 +349,8 @@ class Lab {
         const number = (key) => (Number.isFinite(Number(view[key])) ? Number(view[key]) : 0);
         if ("ui.slow" in view)
             s.slow = near(SLOWS, number("ui.slow"));
-        if (CAMERAS.includes(view["ui.camera"]) && view["ui.camera"] !== this.camera.mode)
-            this.camera.choose(this.flat && view["ui.camera"] === "free" ? "above" : view["ui.camera"]);
+        if (CAMERAS.includes(view["ui.camera"]) && view["ui.camera"] !== this.camera.chosen)
+            this.camera.choose(view["ui.camera"]);
         s.colour = Object.hasOwn(QUANTITIES, view["ui.colour"] ?? "") ? view["ui.colour"] : "nz";
         s.turns = Math.max(1, Math.min(60, number("ui.trail") || TURNS));
         s.arrows = new Set((view["ui.arrows"] || "").split(",").filter((name) => Object.hasOwn(ARROWS, name)));
@@ -327,8 +362,6 @@ class Lab {
     /* A whole state: scene and view. */
     open({ scene, view }) {
         const wrong = this.takeScene(scene);
-        if (wrong)
-            this.tell(wrong, true);
         this.takeView(view);
         this.begin();
         if (wrong)
@@ -338,9 +371,46 @@ class Lab {
         return wrong;
     }
 
+    /* The state that the address tells, of which what is bad or unknown is named and left out.  The Back and Forward of
+     * the browser come here too. */
+    openAddress() {
+        const { scene, view, unknown } = readAddress(location.hash, this.known), step = Number(view["ui.step"]);
+        if (step >= 1) {
+            this.lesson.open(step - 1);
+            return;
+        }
+        this.lesson.close();
+        if (!Object.keys(scene).length && !Object.keys(view).length && !unknown.length) {
+            this.openPreset(PRESETS[1]);
+        } else {
+            const good = takeGood(scene, (some) => this.core.setScene(some)), wrong = good.errors.map((error) => `${sentence(error)}.`);
+            this.open({ scene: good.scene, view });
+            if (unknown.length)
+                wrong.push(T.unknown(unknown.join(", ")));
+            if (wrong.length)
+                this.tell(`${wrong.join(" ")} ${T.restTaken}`, good.errors.length > 0);
+        }
+        this.play(!window.matchMedia("(prefers-reduced-motion: reduce)").matches);
+    }
+
+    /* Let `act` put another scene in the place of this one, to which Back of the browser then returns. */
+    replace(act) {
+        const before = location.hash;
+        act();
+        const after = location.hash;
+        if (!before || before === after)
+            return;
+        try {
+            history.replaceState(null, "", before);
+            history.pushState(null, "", after);
+        } catch {
+            /* a page within another one has no history of its own */
+        }
+    }
+
     openPreset(preset) {
         this.hideTrail = false;
-        this.view.showTrack(null);
+        this.showTrack(null);
         this.open({ scene: preset.scene, view: { "ui.settle": String(preset.settle ?? 0), ...preset.view } });
         this.play(true);
     }
@@ -361,6 +431,8 @@ class Lab {
                 this.panels.chooseCamera(camera);
             else if (event.key === "5")
                 this.lesson.toggle();
+            else if (event.key.toLowerCase() === "f")
+                this.panels.fillScreen();
             else
                 return;
             event.preventDefault();
@@ -393,30 +465,18 @@ async function begin() {
     lab.panels = new Panels(lab, SLOWS);
     lab.lesson = new Lesson(lab, $("lesson"));
     lab.files = new Files(lab);
-    lab.openView();
-    const { scene, view, unknown } = readAddress(location.hash, lab.known);
     lab.panels.build();
-    if (Object.keys(scene).length || Object.keys(view).length) {
-        lab.open({ scene, view });
-        if (view["ui.step"])
-            lab.lesson.open(Number(view["ui.step"]) - 1);
-    } else {
-        lab.openPreset(PRESETS[1]);
-    }
-    if (unknown.length)
-        lab.tell(T.unknown(unknown.join(", ")));
-    else if (lab.flat && !$("notice").textContent)
+    lab.openView();
+    lab.openAddress();
+    if (lab.camera.flat && !$("notice").textContent)
         lab.tell(T.noWebgl);
-    lab.play(lab.lesson.at < 0 && !window.matchMedia("(prefers-reduced-motion: reduce)").matches);
     lab.listenKeys();
-    window.addEventListener("hashchange", () => {
-        const next = readAddress(location.hash, lab.known);
-        lab.open(next);
-        if (next.unknown.length)
-            lab.tell(T.unknown(next.unknown.join(", ")));
-    });
-    requestAnimationFrame((now) => lab.frame(now));
+    window.addEventListener("hashchange", () => lab.openAddress());
+    document.addEventListener("visibilitychange", () => lab.pace.reset());
     return window.festoonLab;
 }
 
-window.festoonLab.begin = begin; /* loader.js calls it */
+/* loader.js calls it, and shows what it throws. */
+window.festoonLab.begin = () => begin().catch((error) => {
+    throw new Error(sentence(error), { cause: error });
+});

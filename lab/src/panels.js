@@ -1,9 +1,10 @@
 /* panels.js - what stands around the view: transport, cameras, presets, plots, numbers. */
 import { CAMERAS } from "./camera.js";
 import { ARROWS } from "./colours.js";
-import { element } from "./controls.js";
+import { element, sentence } from "./controls.js";
 import { COLUMN } from "./core.js";
-import { Plot, rangeOf, REGIME_COLOURS } from "./plots.js";
+import { factorTold } from "./pace.js";
+import { Plot, rangeOf, regimeColour } from "./plots.js";
 import { PRESETS, T } from "./texts.js";
 import { PALETTE, QUANTITIES } from "./trail.js";
 
@@ -28,6 +29,7 @@ export class Panels {
             stamp: `festoon ${lab.core.version}, results version ${lab.core.resultsVersion}`,
         }))
             $(id).textContent = text;
+        $("why-name").textContent = T.details;
         $("play").addEventListener("click", () => lab.play(!lab.playing));
         $("step").addEventListener("click", () => lab.step());
         $("restart").addEventListener("click", () => lab.restart());
@@ -36,11 +38,12 @@ export class Panels {
         $("slow").max = String(this.slows.length - 1);
         $("slow").addEventListener("input", () => {
             lab.settings.slow = this.slows[Number($("slow").value)];
+            lab.pace.reset();
             this.showView();
             lab.remember();
         });
         $("cameras").setAttribute("aria-label", T.view);
-        for (const name of CAMERAS.filter((camera) => !lab.flat || camera !== "free")) {
+        for (const name of CAMERAS) {
             const button = element("button", { type: "button", "data-camera": name }, T.cameras[name]);
             button.addEventListener("click", () => this.chooseCamera(name));
             $("cameras").append(button);
@@ -48,13 +51,49 @@ export class Panels {
         for (const preset of PRESETS) {
             const button = element("button", { type: "button", "data-preset": preset.id }, preset.name);
             button.addEventListener("click", () => {
-                lab.lesson.close();
-                lab.openPreset(preset);
+                lab.replace(() => {
+                    lab.lesson.close();
+                    lab.openPreset(preset);
+                });
             });
             $("presets").append(button);
         }
         this.buildView();
         this.buildPlots();
+        this.buildScreen();
+        this.buildPaper();
+    }
+
+    /* The picture with its controls on the whole screen, where the browser lets a page have it. */
+    buildScreen() {
+        const button = $("screen"), name = () => {
+            button.textContent = document.fullscreenElement ? T.screenLeave : T.screen;
+        };
+        button.hidden = !document.fullscreenEnabled;
+        button.addEventListener("click", () => this.fillScreen());
+        document.addEventListener("fullscreenchange", name);
+        name();
+    }
+
+    fillScreen() {
+        if (document.fullscreenElement)
+            document.exitFullscreen();
+        else if (document.fullscreenEnabled)
+            $("theatre").requestFullscreen().catch((error) => this.lab.tell(sentence(error), true));
+    }
+
+    /* What is printed: the picture and the numbers as they stand, dark on white, and of which bead they are. */
+    buildPaper() {
+        const set = (paper) => {
+            this.canvas.paper = paper;
+            this.frame(Infinity);
+        };
+        window.addEventListener("beforeprint", () => {
+            const given = Object.entries(this.lab.scene).map(([key, value]) => `${T.names[key] || key}: ${T.choices[key]?.[value] || value}`);
+            $("paper").textContent = `${given.length ? T.paper(given.join("; ")) : T.paperDefault} ${$("stamp").textContent}.`;
+            set(true);
+        });
+        window.addEventListener("afterprint", () => set(false));
     }
 
     buildView() {
@@ -65,7 +104,7 @@ export class Panels {
             lab.trail.colourBy(QUANTITIES[s.colour], lab.units);
             this.showView();
             lab.remember();
-            lab.draw();
+            lab.wake();
         });
         this.turns = element("input", { id: "turns", type: "range", min: "1", max: "60", step: "1" });
         this.turns.addEventListener("input", () => {
@@ -73,7 +112,7 @@ export class Panels {
             lab.remember();
         });
         const arrows = element("fieldset", {}, element("legend", {}, T.arrows));
-        this.arrowBoxes = Object.keys(ARROWS).filter((name) => !lab.flat || name !== "load").map((name) => {
+        this.arrowBoxes = Object.keys(ARROWS).map((name) => {
             const box = element("input", { type: "checkbox", id: `arrow-${name}`, value: name });
             box.addEventListener("change", () => {
                 if (box.checked)
@@ -82,7 +121,7 @@ export class Panels {
                     s.arrows.delete(name);
                 this.showView();
                 lab.remember();
-                lab.draw();
+                lab.wake();
             });
             arrows.append(element("label", {}, box, ` ${T.arrowNames[name]}`));
             return box;
@@ -93,26 +132,38 @@ export class Panels {
 
     chooseCamera(name) {
         const { lab } = this;
-        lab.camera.choose(lab.flat && name === "free" ? "above" : name);
+        lab.camera.choose(lab.camera.flat && name === "free" ? "above" : name);
         this.showView();
         lab.remember();
-        lab.draw();
+        lab.wake();
     }
 
     /* The controls of the view as the settings are. */
     showView() {
         const { lab } = this, s = lab.settings;
         $("slow").value = String(this.slows.indexOf(s.slow));
-        $("slow-value").textContent = T.slowValue(s.slow);
+        this.showPace();
         $("slow").setAttribute("aria-valuetext", T.slowValue(s.slow));
-        for (const button of $("cameras").children)
+        for (const button of $("cameras").children) {
             button.setAttribute("aria-pressed", String(button.dataset.camera === lab.camera.mode));
+            button.hidden = lab.camera.flat && button.dataset.camera === "free";
+        }
         $("camera-help").textContent = T.cameraHelp[lab.camera.mode];
         this.colour.value = s.colour;
         this.turns.value = String(s.turns);
-        for (const box of this.arrowBoxes)
+        for (const box of this.arrowBoxes) {
             box.checked = s.arrows.has(box.value);
+            box.parentElement.hidden = lab.camera.flat && box.value === "load"; /* it points at the eye */
+        }
         this.legend = null;
+    }
+
+    /* How much slower the motion is than in reality: what is set, or what this device keeps up with. */
+    showPace() {
+        const { slow } = this.lab.settings, kept = factorTold(slow, this.lab.pace.slower);
+        const text = kept === slow ? T.slowValue(slow) : T.slowTrue(kept, slow);
+        if ($("slow-value").textContent !== text)
+            $("slow-value").textContent = text;
     }
 
     /* ------------------------------------------------------------ plots */
@@ -183,7 +234,7 @@ export class Panels {
             });
         } catch (error) {
             if (error.status !== 8)
-                this.progress.textContent = error.message;
+                this.progress.textContent = sentence(error);
         } finally {
             if (this.sweeping === mine) {
                 this.sweeping = null;
@@ -208,6 +259,7 @@ export class Panels {
             return;
         this.drawn = Number.isFinite(now) ? now : -Infinity;
         this.showLive();
+        this.showPace();
         if (!this.canvas.begin())
             return;
         ({ phi: () => this.drawPhi(), sweep: () => this.drawSweep(), path: () => this.drawPath() })[this.plot]();
@@ -230,7 +282,7 @@ export class Panels {
             dot.style.background = ARROWS[name];
             return element("span", {}, dot, T.arrowNames[name]);
         });
-        $("legend").replaceChildren(...arrows, element("span", {}, `${T.quantities[lab.settings.colour]}: ${digits(range[0], 3)}`), bar, element("span", {}, `${digits(range[1], 3)}${unit && ` ${unit}`}`));
+        $("legend").replaceChildren(...arrows, element("span", {}, `${T.quantities[lab.settings.colour]}: ${digits(range[0], 3)}`, bar, `${digits(range[1], 3)}${unit && ` ${unit}`}`));
     }
 
     drawPhi() {
@@ -264,10 +316,10 @@ export class Panels {
         canvas.clip(() => {
             canvas.line(canvas.ink.frame, sorted.map((p) => [canvas.atX(p.frequency_hz), canvas.atY(p.mean_r * mm)]));
             for (const p of sorted)
-                canvas.disc(p.frequency_hz, p.mean_r * mm, 3.2, REGIME_COLOURS[p.regime] || "#888888");
+                canvas.disc(p.frequency_hz, p.mean_r * mm, 3.2, regimeColour(p.regime));
         });
         if (run)
-            canvas.disc(run.frequency_hz, run.mean_r * mm, 6, REGIME_COLOURS[run.regime] || "#888888", canvas.ink.text);
+            canvas.disc(run.frequency_hz, run.mean_r * mm, 6, regimeColour(run.regime), canvas.ink.text);
         this.drawKey([...new Set([...sorted.map((p) => p.regime), ...(run ? [run.regime] : [])])]);
     }
 
@@ -278,7 +330,7 @@ export class Panels {
             const y = box.bottom - 10 - 16 * i;
             pen.beginPath();
             pen.arc(box.right - 118, y - 4, 4, 0, 2 * Math.PI);
-            pen.fillStyle = REGIME_COLOURS[name];
+            pen.fillStyle = regimeColour(name);
             pen.fill();
             pen.fillStyle = canvas.ink.text;
             pen.fillText(name, box.right - 110, y);
@@ -299,20 +351,28 @@ export class Panels {
         const { lab } = this, mm = 1e3 * result.groups.length_unit_m, hertz = 1 / (2 * Math.PI * result.groups.time_unit_s);
         this.result = result;
         const ratio = result.mean_alpha_dot ? Math.abs(result.omega / result.mean_alpha_dot) : null;
-        const measures = { r: digits(result.mean_r === null ? null : result.mean_r * mm), turns: digits(ratio, 3), festoons: digits(result.festoons, 3), reason: result.reason };
-        $("regime").textContent = T.regimes[result.regime](measures);
-        $("regime").title = result.reason || "";
+        /* Where the symmetry is not known, there are N festoons or 2 N. */
+        const unknown = result.festoons === null && result.regime.endsWith("rotating") && ratio !== null;
+        const festoons = unknown ? `${digits(1 + ratio, 3)} ${T.or} ${digits(2 * (1 + ratio), 3)}` : result.festoons === null ? null : digits(result.festoons, 3);
+        const measures = {
+            r: digits(result.mean_r === null ? null : result.mean_r * mm), turns: digits(ratio, 3), free: result.scene["friction.law"] === "none",
+            festoons,
+        };
+        $("regime").textContent = (T.regimes[result.regime] || T.regimes.undecided)(measures);
+        $("why-text").textContent = result.reason || "";
+        $("why").hidden = !result.reason;
         const circles = result.mean_alpha_dot === null ? null : result.mean_alpha_dot * hertz;
         const rows = [
-            [T.rows.mean_r, result.mean_r === null ? "–" : `${digits(result.mean_r * mm)} ± ${digits(result.std_r * mm, 3)} mm`],
+            [T.rows.mean_r, result.mean_r === null ? "–" : `${digits(result.mean_r * mm)} mm`],
+            [T.rows.std_r, result.std_r === null ? "–" : `${digits(result.std_r * mm, 3)} mm`],
             [T.rows.bead, circles === null ? "–" : `${digits(Math.abs(circles))} Hz ${circles < 0 ? T.against : T.along}`],
-            [T.rows.festoons, digits(result.festoons)],
+            [T.rows.festoons, festoons ?? "–"],
             [T.rows.angle, result.max_angle_deg === null ? "–" : `${digits(result.max_angle_deg, 3)}°`],
             [T.rows.slip, result.rms_slip === null ? "–" : `${digits(result.rms_slip * mm / result.groups.time_unit_s, 3)} mm/s`],
             ...(result.never_slips === null ? [] : [[T.rows.sticking, result.sticking === null ? "–" : `${digits(100 * result.sticking, 3)} %`]]),
-            [T.rows.symmetry, result.symmetry || "–"],
+            [T.rows.symmetry, T.symmetries[result.symmetry] || "–"],
         ];
-        $("numbers").replaceChildren(...rows.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]));
+        $("numbers").replaceChildren(...rows.map(([name, value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value))));
         lab.panels.frame(Infinity);
     }
 }

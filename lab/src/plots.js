@@ -40,7 +40,7 @@ export class Plot {
             [canvas.width, canvas.height] = [width, height];
         pen.setTransform(ratio, 0, 0, ratio, 0, 0);
         pen.clearRect(0, 0, box.width, box.height);
-        this.ink = window.matchMedia("(prefers-color-scheme: dark)").matches ? INK.dark : INK.light;
+        this.ink = !this.paper && window.matchMedia("(prefers-color-scheme: dark)").matches ? INK.dark : INK.light;
         [this.width, this.height] = [box.width, box.height];
         return box.width > 80 && box.height > 60;
     }
@@ -143,8 +143,9 @@ export class Plot {
     }
 }
 
-/* Colours of regimes, told apart by shape of words in the legend too. */
-export const REGIME_COLOURS = {
+/* Colours of regimes, told apart by shape of words in the legend too; one that has none yet is grey. */
+const REGIME_COLOURS = {
     locked: "#4a7fc1", librating: "#8a63b8", "counter-rotating": "#d2622a", corotating: "#2a9d74", chaotic: "#b0a21d",
     ejected: "#8d8d8d", lifted: "#555555", undecided: "#b9b9b9",
 };
+export const regimeColour = (name) => REGIME_COLOURS[name] || "#888888";

@@ -1,6 +1,6 @@
 /* pool.js - runs and sweeps in workers.  A worker that must stop is ended and replaced: a page opened from a file may
  * share no memory with its workers, so there is no flag that a busy one could look at. */
-import { FestoonError } from "./core.js";
+import { FestoonError, STATUS } from "./core.js";
 
 class Runner {
     constructor(pool) {
@@ -23,7 +23,9 @@ class Runner {
         this.worker = new Worker(this.pool.address);
         this.worker.onmessage = ({ data }) => this.hear(data);
         this.worker.onerror = (event) => this.waiting?.reject(new Error(event.message || "a worker failed"));
+        this.ready = false;
         await this.send({ kind: "open", module: this.pool.module });
+        this.ready = true;
     }
 
     hear(data) {
@@ -43,8 +45,14 @@ class Runner {
 
     async ask(message, onFraction) {
         this.onFraction = onFraction;
-        await this.begin();
-        return this.send(message);
+        try {
+            await this.begin();
+            return await this.send(message);
+        } catch (error) {
+            if (!this.ready || error.status === STATUS.NO_MEMORY)
+                this.end(); /* one without the library answers nothing, and one that is full holds on to what it has */
+            throw error;
+        }
     }
 
     end() {

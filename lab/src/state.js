@@ -1,24 +1,53 @@
 /* state.js - what leaves the page and comes back as text: the address, scenes, tracks.  All of it is untrusted: it
  * becomes values and plain text, never markup. */
 
-export const VIEW_KEYS = ["ui.slow", "ui.camera", "ui.colour", "ui.trail", "ui.arrows", "ui.ramp", "ui.settle", "ui.step"];
+import { CAMERAS } from "./camera.js";
+import { ARROWS } from "./colours.js";
+import { QUANTITIES } from "./trail.js";
+
+/* The words of an address that are no scene's, and what each may be. */
+const isNumber = (text) => /^\s*\d/.test(text) && Number.isFinite(Number(text)), isOf = (table) => (text) => Object.hasOwn(table, text);
+const VIEW = {
+    "ui.slow": isNumber, "ui.camera": (text) => CAMERAS.includes(text), "ui.colour": isOf(QUANTITIES), "ui.trail": isNumber,
+    "ui.arrows": (text) => text.split(",").every(isOf(ARROWS)), "ui.ramp": isNumber, "ui.settle": isNumber, "ui.step": isNumber,
+};
 const LONGEST = 200, FARTHEST = 1e9;
 const MILLIMETRES = new Map([["mm", 1], ["cm", 10], ["m", 1000], ["px", null]]);
 
-/* The part of an address behind "#": scene and view, and the keys that nobody knows. */
+/* The part of an address behind "#": scene and view, the keys that nobody knows, and words of the view that say nothing. */
 export function readAddress(text, known) {
     const scene = {}, view = {}, unknown = [];
     for (const [key, value] of new URLSearchParams(text.replace(/^#/, ""))) {
         if (key === "v")
             continue;
-        if (VIEW_KEYS.includes(key))
+        if (Object.hasOwn(VIEW, key) && VIEW[key](value))
             view[key] = value.slice(0, LONGEST);
+        else if (Object.hasOwn(VIEW, key))
+            unknown.push(`${key}=${value.slice(0, 60)}`);
         else if (known(key))
             scene[key] = value.slice(0, LONGEST);
         else
             unknown.push(key.slice(0, 60));
     }
     return { scene, view, unknown };
+}
+
+/* What is good of a scene from outside: `take` throws an error that names what is bad, and that is left out, a magnet
+ * whose part is bad as a whole.  Returns the scene that was taken, and the errors. */
+export function takeGood(scene, take) {
+    const good = { ...scene }, errors = [];
+    for (;;)
+        try {
+            take(good);
+            return { scene: good, errors };
+        } catch (error) {
+            const keys = Object.keys(good), where = String(error.where ?? "");
+            const bad = [keys.filter((key) => key === where), keys.filter((key) => key.startsWith(`${where.split(".")[0]}.`)), keys].find((list) => list.length);
+            errors.push(error);
+            if (!bad)
+                return { scene: good, errors };
+            bad.forEach((key) => delete good[key]);
+        }
 }
 
 export function writeAddress(scene, view) {

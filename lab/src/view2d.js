@@ -28,7 +28,7 @@ export class View2D {
     draw({ row, trail, range, camera, arrows }) {
         const { pen, canvas, setup } = this, riding = camera.mode === "magnet", close = camera.mode === "bead";
         const phase = 2 * Math.PI * row[COLUMN.turns], x = row[COLUMN.x], y = row[COLUMN.y];
-        const reach = (close ? 6 * setup.eps : setup.reach) / camera.place.zoom;
+        const reach = (close ? 6 * setup.eps : Math.max(...setup.hull.map(([radius]) => radius))) / camera.place.zoom;
         const scale = Math.min(canvas.width, canvas.height) / (2 * reach);
         pen.setTransform(1, 0, 0, 1, 0, 0);
         pen.fillStyle = "#141a22";

@@ -241,7 +241,7 @@ export class View3D {
         this.ribbon.fill(trail.count + 1, (i) => (i < trail.count ? [places[2 * at(i)], places[2 * at(i) + 1]] : here), colour, 0.011);
         this.ribbon.mesh.rotation.z = riding ? this.turning.rotation.z : 0;
         this.point(row, arrows);
-        const look = camera.look(row, eps, this.setup.reach, this.eye.aspect, FOV);
+        const look = camera.look(row, eps, this.setup.hull, this.eye.aspect, FOV);
         this.eye.position.set(...look.eye);
         this.eye.up.set(...look.up);
         this.eye.lookAt(...look.target);

@@ -1,5 +1,5 @@
 /* browser.mjs - the page in a real browser without a head, opened from its file as a double click does.  Started by
- * tests/test_lab_long.py, which sets FESTOON, SOURCE_DIR, BUILD_DIR and CHROMIUM.  With PICTURES=FOLDER every state is
+ * tests/lab/test_lab_long.py, which sets FESTOON, SOURCE_DIR, BUILD_DIR and CHROMIUM.  With PICTURES=FOLDER every state is
  * left there as a picture, to be looked at. */
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -21,7 +21,7 @@ const browser = await puppeteer.launch({
 const festoon = (...words) => execFileSync(FESTOON, words, { encoding: "utf8", stdio: ["ignore", "pipe", "pipe"] });
 
 /* A page that is ready, with all that it asked for and complained of. */
-async function open(hash = "", { size = SIZES.wide, flat = false, reduced = false } = {}) {
+async function open(hash = "", { size = SIZES.wide, flat = false, reduced = false, counted = false } = {}) {
     const page = await browser.newPage();
     page.asked = [];
     page.complaints = [];
@@ -37,6 +37,17 @@ async function open(hash = "", { size = SIZES.wide, flat = false, reduced = fals
             HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
                 return /webgl/.test(kind) ? null : usual.call(this, kind, ...rest);
             };
+        });
+    if (counted)
+        await page.evaluateOnNewDocument(() => {
+            window.callbacks = 0;
+            for (const name of ["requestAnimationFrame", "setTimeout", "setInterval"]) {
+                const usual = window[name];
+                window[name] = (call, ...rest) => usual.call(window, (...what) => {
+                    window.callbacks += 1;
+                    call(...what);
+                }, ...rest);
+            }
         });
     await page.goto(PAGE + hash);
     await page.evaluate(() => window.festoonLab.ready.then(() => true));
@@ -57,20 +68,24 @@ async function picture(page, name) {
 
 /* Wait until the page's run is described. */
 const described = (page) => page.waitForFunction(() => !/computing|^$/.test(document.getElementById("regime").textContent), { timeout: 0 });
+const type = (page, selector, text) => page.$eval(selector, (field, value) => {
+    field.value = value;
+    field.dispatchEvent(new Event("change", { bubbles: true }));
+}, text);
 const click = (page, selector) => page.$eval(selector, (element) => element.click());
 
 /* How many different colours the view shows, in a coarse picture of it. */
-const coloursOfView = (page) => page.evaluate(() => {
+const coloursOfView = (page, how = "draw") => page.evaluate((act) => {
     const { lab } = window.festoonLab, small = document.createElement("canvas");
     small.width = small.height = 64;
-    lab.draw();
+    lab[act]();
     const pen = small.getContext("2d");
     pen.drawImage(lab.view.canvas, 0, 0, 64, 64);
     const data = pen.getImageData(0, 0, 64, 64).data, seen = new Set();
     for (let i = 0; i < data.length; i += 4)
         seen.add((data[i] >> 4) * 256 + (data[i + 1] >> 4) * 16 + (data[i + 2] >> 4));
     return seen.size;
-});
+}, how);
 
 async function checkAxe(page, name) {
     await page.evaluate(AXE);
@@ -83,7 +98,7 @@ const noSidewaysScroll = async (page) => assert.ok(await page.evaluate(() => doc
 const tests = {
     async "golden hash, runs and a sweep in workers have the program's bits"() {
         const page = await open();
-        const source = readFileSync(join(SOURCE_DIR, "tests", "test_golden.c"), "utf8");
+        const source = readFileSync(join(SOURCE_DIR, "tests", "ode", "test_golden.c"), "utf8");
         const [trajectories, jacobians] = /TRAJECTORIES = UINT64_C\(0x(\w+)\), JACOBIANS = UINT64_C\(0x(\w+)\)/.exec(source).slice(1);
         const hashes = await page.evaluate(`(${goldenHashes.toString()})(window.festoonLab.core)`);
         assert.deepEqual(hashes, { trajectories, jacobians });
@@ -207,15 +222,11 @@ const tests = {
     },
     async "a change of a control reaches library, address and numbers; nonsense stays outside with a sentence"() {
         const page = await open();
-        const type = (id, text) => page.$eval(id, (field, value) => {
-            field.value = value;
-            field.dispatchEvent(new Event("change", { bubbles: true }));
-        }, text);
-        await type("#p-drive-frequency", "900 rpm");
+        await type(page, "#p-drive-frequency", "900 rpm");
         assert.equal(await page.evaluate(() => window.festoonLab.core.value("drive.frequency")), 15);
         assert.match(await page.evaluate(() => location.hash), /drive\.frequency=900\+rpm/);
         await page.waitForFunction(() => /12\.\d festoons/.test(document.getElementById("regime").textContent), { timeout: 0 });
-        await type("#p-drive-frequency", "-3 <b>Hz</b>");
+        await type(page, "#p-drive-frequency", "-3 <b>Hz</b>");
         assert.match(await page.$eval("#p-drive-frequency-error", (text) => text.textContent), /drive\.frequency: .*/);
         assert.equal(await page.$("#p-drive-frequency-error b"), null);
         assert.equal(await page.evaluate(() => window.festoonLab.core.value("drive.frequency")), 15);
@@ -331,6 +342,227 @@ const tests = {
         const still = await open("", { reduced: true });
         assert.equal(await still.evaluate(() => window.festoonLab.lab.playing), false);
         await close(still);
+    },
+    async "paused, a page does nothing: no frame, no timer; what changes is drawn once"() {
+        for (const flat of [false, true]) {
+            const page = await open("", { counted: true, flat });
+            const count = () => page.evaluate(() => window.callbacks);
+            const rest = () => new Promise((resolve) => setTimeout(resolve, 700));
+            await described(page);
+            const running = await count();
+            await page.waitForFunction((before) => window.callbacks > before + 5, { polling: 50, timeout: 0 }, running);
+            for (const how of ["#play", "#step", "#restart", "[data-camera=above]"]) {
+                if (how === "#play" || await page.evaluate(() => !window.festoonLab.lab.playing))
+                    await click(page, how);
+                await page.waitForFunction(() => !window.festoonLab.lab.pace.asked, { polling: 50, timeout: 0 });
+                const before = await count();
+                await rest();
+                assert.equal(await count() - before, 0, `idle after ${how}`);
+            }
+            await click(page, "#lesson-open");
+            await described(page);
+            await page.waitForFunction(() => !window.festoonLab.lab.pace.asked, { polling: 50, timeout: 0 });
+            const before = await count();
+            await rest();
+            assert.equal(await count() - before, 0, "idle while the lesson asks");
+            await close(page);
+        }
+    },
+    async "a lost WebGL context: the flat view, and the other one when it is back"() {
+        const page = await open("#v=1&drive.frequency=10.7+Hz&ui.camera=free&ui.settle=20");
+        const state = () => page.evaluate(() => {
+            const { lab } = window.festoonLab;
+            return { flat: lab.camera.flat, mode: lab.camera.mode, shown: lab.view.canvas === document.getElementById("view"), views: document.querySelectorAll("#view").length,
+                free: !document.querySelector("[data-camera=free]").hidden, turns: lab.row[1] };
+        });
+        const before = await state();
+        assert.deepEqual([before.flat, before.mode, before.free], [false, "free", true]);
+        await page.evaluate(() => {
+            window.lost = document.getElementById("view").getContext("webgl2").getExtension("WEBGL_lose_context");
+            window.lost.loseContext();
+        });
+        await page.waitForFunction(() => window.festoonLab.lab.camera.flat, { timeout: 0 });
+        const lost = await state();
+        assert.deepEqual([lost.mode, lost.shown, lost.views, lost.free], ["above", true, 1, false]);
+        assert.match(await page.$eval("#notice", (text) => text.textContent), /from above/);
+        assert.ok(await coloursOfView(page) > 8, "the flat view is not blank");
+        await page.waitForFunction((turns) => window.festoonLab.lab.row[1] > turns, { timeout: 0 }, lost.turns);
+        await picture(page, "wide-context-lost");
+        await checkAxe(page, "lost");
+        await page.evaluate(() => window.lost.restoreContext());
+        await page.waitForFunction(() => !window.festoonLab.lab.camera.flat, { timeout: 0 });
+        const back = await state();
+        assert.deepEqual([back.mode, back.shown, back.views, back.free], ["free", true, 1, true]);
+        assert.equal(await page.$eval("#notice", (text) => text.textContent), "");
+        assert.ok(await coloursOfView(page) > 12, "the view is not blank");
+        await picture(page, "wide-context-back");
+        await close(page);
+    },
+    async "start.r=50, in the address or the control: a sentence, and the page lives on; what is good of an address is kept"() {
+        const page = await open("#v=1&start.r=50&drive.frequency=14.5+Hz&magnet.depth=1.5+cm&drive.frequncy=3&ui.slow=50");
+        const notice = await page.$eval("#notice", (text) => text.textContent);
+        assert.match(notice, /start\.r = 50 lies beyond the plate's edge/);
+        assert.match(notice, /drive\.frequncy/);
+        const state = () => page.evaluate(() => {
+            const { lab, core } = window.festoonLab;
+            return [core.value("drive.frequency"), core.value("magnet.depth"), core.value("start.r") < 2, lab.settings.slow, location.hash.includes("start.r"), lab.playing];
+        });
+        assert.deepEqual(await state(), [14.5, 0.015, true, 50, false, true]);
+        const lives = async () => {
+            const turns = await page.evaluate(() => window.festoonLab.lab.row[1]);
+            await page.waitForFunction((before) => window.festoonLab.lab.row[1] > before, { timeout: 0 }, turns);
+            assert.ok(await coloursOfView(page) > 12);
+        };
+        await lives();
+        await type(page, "#p-start-r", "50");
+        assert.match(await page.$eval("#p-start-r-error", (text) => text.textContent), /edge/);
+        assert.deepEqual(await state(), [14.5, 0.015, true, 50, false, true]);
+        await lives();
+        await type(page, "#p-start-r", "0.5");
+        assert.equal(await page.$eval("#p-start-r-error", (text) => text.textContent), "");
+        await type(page, "#p-magnet-depth", "1.62 cm");
+        assert.equal(await page.evaluate(() => window.festoonLab.core.value("magnet.depth")), 0.0162);
+        await type(page, "#p-bead-radius", "0.3cm");
+        assert.equal(await page.evaluate(() => window.festoonLab.core.value("bead.radius")), 0.003);
+        await lives();
+        await close(page);
+    },
+    async "Back of the browser brings back what an experiment, a lesson, a key or a dropped scene has replaced"() {
+        const page = await open("#v=1&drive.frequency=13.25+Hz&magnet.depth=15+mm&ui.slow=50&ui.camera=above");
+        const scene = () => page.evaluate(() => JSON.stringify(window.festoonLab.core.scene())), own = await scene();
+        const go = async (how) => {
+            const hash = await page.evaluate(() => location.hash);
+            await page.evaluate((name) => history[name](), how);
+            await page.waitForFunction((before) => location.hash !== before, { timeout: 0 }, hash);
+            await page.evaluate(() => new Promise((resolve) => setTimeout(resolve)));
+        };
+        const acts = [() => click(page, "[data-preset=twelve]"), () => click(page, "#lesson-open"), () => page.evaluate(() => document.activeElement.blur()).then(() => page.keyboard.press("5")),
+            () => page.evaluate(() => window.festoonLab.lab.files.open(new File(["drive:\n  frequency: 16 Hz\n"], "a.yaml")))];
+        for (const act of acts) {
+            await act();
+            assert.notEqual(await scene(), own);
+            await go("back");
+            await page.waitForFunction(() => window.festoonLab.lab.lesson.at < 0, { timeout: 0 });
+            assert.equal(await scene(), own, String(act));
+            assert.deepEqual(await page.evaluate(() => [window.festoonLab.lab.settings.slow, window.festoonLab.lab.camera.mode, window.festoonLab.lab.playing]), [50, "above", true]);
+        }
+        await click(page, "[data-preset=four]");
+        await click(page, "#lesson-open");
+        await click(page, "#lesson nav button:last-child");
+        await go("back");
+        assert.equal(await page.evaluate(() => window.festoonLab.lab.lesson.at), 0);
+        await go("back");
+        assert.deepEqual(await page.evaluate(() => [window.festoonLab.lab.lesson.at, window.festoonLab.core.value("drive.frequency")]), [-1, 10.7]);
+        await go("back");
+        assert.equal(await scene(), own);
+        await go("forward");
+        assert.equal(await page.evaluate(() => window.festoonLab.core.value("drive.frequency")), 10.7);
+        await close(page);
+    },
+    async "a slow device tells how slow the motion really is"() {
+        const page = await open("#v=1&drive.frequency=10.7+Hz&ui.slow=1");
+        await page.evaluate(() => {
+            const { lab } = window.festoonLab, usual = lab.advance;
+            lab.advance = (seconds, most) => usual.call(lab, seconds / 4, most); /* a quarter of what is due */
+            lab.pace.reset();
+        });
+        await page.waitForFunction(() => /^[34](\.\d)? times slower, not real time/.test(document.getElementById("slow-value").textContent), { timeout: 0 });
+        await picture(page, "wide-slow-device");
+        await noSidewaysScroll(page);
+        await close(page);
+    },
+    async "what a pupil reads: a swing is no error, without friction no exponent but in the details, words for keys"() {
+        const page = await open("#v=1&drive.frequency=10.7+Hz");
+        await described(page);
+        const numbers = await page.$eval("#numbers", (list) => list.textContent);
+        assert.match(numbers, /mean distance from the axis17\.63 mmswing of the distance \(root mean square\)3\.85 mm/);
+        assert.ok(!numbers.includes("±"));
+        await click(page, "[data-preset=none]");
+        await page.waitForFunction(() => /^Without friction/.test(document.getElementById("regime").textContent), { timeout: 0 });
+        assert.ok(!/Lyapunov|\+-/.test(await page.$eval("#stage", (stage) => stage.innerText)), "nothing of an exponent is seen");
+        await click(page, "#why summary");
+        assert.match(await page.$eval("#stage", (stage) => stage.innerText), /Lyapunov/);
+        const raw = await page.evaluate(() => {
+            for (const details of document.querySelectorAll("details"))
+                details.open = true;
+            return [...document.querySelectorAll("label, option, summary, legend, dt, dd, button")].map((element) => element.innerText)
+                .filter((text) => /_|[a-z]\.[a-z]|coulomb|farago|undefined/.test(text));
+        });
+        assert.deepEqual(raw.filter((text) => !/^n_z/.test(text)), []);
+        await picture(page, "wide-none");
+        await close(page);
+    },
+    async "the picture fills the screen with its controls, and leaves it"() {
+        const page = await open();
+        const shown = () => page.evaluate(() => [document.fullscreenElement?.id ?? "", document.getElementById("screen").textContent]);
+        const until = (id) => page.waitForFunction((name) => (document.fullscreenElement?.id ?? "") === name, { timeout: 0 }, id);
+        assert.deepEqual(await shown(), ["", "Full screen"]);
+        await page.click("#screen");
+        await until("theatre");
+        await page.waitForFunction(() => document.getElementById("screen").textContent === "Leave full screen", { timeout: 0 });
+        const share = await page.evaluate(() => document.getElementById("view").getBoundingClientRect().height / window.innerHeight);
+        assert.ok(share > 0.7, `${share} of the height`);
+        await click(page, "#play");
+        await page.setViewport({ width: 900, height: 700 });
+        await page.waitForFunction(() => document.getElementById("view").clientWidth < 900, { timeout: 0 });
+        assert.ok(await coloursOfView(page, "resize") > 12, "a picture stands there at once");
+        await picture(page, "wide-fullscreen");
+        await page.evaluate(() => document.activeElement.blur());
+        await page.keyboard.press("f");
+        await until("");
+        await close(page);
+    },
+    async "on paper: the picture, the numbers and whose they are, and no controls"() {
+        const page = await open("#v=1&drive.frequency=14.5+Hz&friction.law=coulomb");
+        const dark = () => page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: "dark" }]);
+        await dark();
+        await described(page);
+        const ink = () => page.evaluate(() => window.festoonLab.lab.panels.canvas.ink.text);
+        assert.notEqual(await ink(), "#33404d");
+        await page.evaluate(() => window.dispatchEvent(new Event("beforeprint")));
+        assert.equal(await ink(), "#33404d", "dark ink also where the page is dark");
+        await page.emulateMediaType("print");
+        await page.setViewport({ width: 720, height: 1000 });
+        await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+        const seen = await page.evaluate(() => Object.fromEntries(["view", "plot", "numbers", "regime", "paper", "play", "presets", "main-controls", "cameras", "sweep-form", "lesson-open", "screen"].map((id) => [id, document.getElementById(id).checkVisibility()])));
+        assert.deepEqual(Object.keys(seen).filter((id) => seen[id]), ["view", "plot", "numbers", "regime", "paper"]);
+        assert.match(await page.$eval("#paper", (text) => text.textContent), /Speed of the magnet: 14\.5 Hz; Law of friction: dry.*festoon \d/);
+        assert.equal(await page.evaluate(() => getComputedStyle(document.body).backgroundColor), "rgb(255, 255, 255)");
+        await picture(page, "paper");
+        await page.emulateMediaType("screen");
+        await dark(); /* which the media type has taken back */
+        await page.evaluate(() => window.dispatchEvent(new Event("afterprint")));
+        assert.notEqual(await ink(), "#33404d");
+        await close(page);
+    },
+    async "where memory runs out the page says so and lives on"() {
+        const page = await open("#v=1&drive.frequency=12+Hz");
+        const refuses = await page.evaluate(() => {
+            const { core } = window.festoonLab, taken = [];
+            for (let size = 2 ** 29; size >= 16; size /= 2)
+                for (let at = core.c.lab_alloc(size); at; at = core.c.lab_alloc(size))
+                    taken.push(at);
+            window.giveBack = () => taken.forEach((at) => core.c.lab_release(at));
+            return taken.length;
+        });
+        assert.ok(refuses > 0);
+        await type(page, "#p-drive-frequency", "13 Hz");
+        assert.match(await page.$eval("#p-drive-frequency-error", (text) => text.textContent), /no more memory/);
+        const turns = await page.evaluate(() => window.festoonLab.lab.row[1]);
+        await page.waitForFunction((before) => window.festoonLab.lab.row[1] > before, { timeout: 0 }, turns);
+        await click(page, "#restart");
+        assert.match(await page.$eval("#notice", (text) => text.textContent), /no more memory/);
+        await page.evaluate(() => window.giveBack());
+        await type(page, "#p-drive-frequency", "13 Hz");
+        assert.equal(await page.evaluate(() => window.festoonLab.core.value("drive.frequency")), 13);
+        await close(page);
+        const starved = await browser.newPage(); /* and a page that gets none from the beginning */
+        await starved.evaluateOnNewDocument(() => {
+            WebAssembly.instantiate = () => Promise.reject(new RangeError("WebAssembly.instantiate(): Out of memory: Cannot allocate Wasm memory for new instance"));
+        });
+        await starved.goto(PAGE);
+        await starved.waitForFunction(() => /no more memory/.test(document.getElementById("notice").textContent), { timeout: 0 });
+        await starved.close();
     },
     async "what festoon lab hands to a desktop leads a browser to the page with its scene"() {
         const tools = join(scratch, "bin"), asked = join(scratch, "asked");

@@ -7,18 +7,22 @@
 ('counter-rotating', 0.767, 17.63)
 """
 
-from . import figures
+from typing import TYPE_CHECKING
+
+from . import figures, plots
 from ._errors import (
     BadInput,
     FestoonError,
     InputOutput,
     Interrupted,
+    MissingFile,
     NoConvergence,
     NotFinite,
     OutOfMemory,
     StepUnderflow,
     Unavailable,
 )
+from ._native import ffi as _ffi
 from ._native import lib as _lib
 from ._native import text_of as _text_of
 from ._quantities import UNSET
@@ -33,10 +37,20 @@ from .sweeping import sweep
 from .sweeps import Sweep
 from .trajectories import Trajectory
 
+if TYPE_CHECKING:
+    from typing import List
+
 __version__ = _text_of(_lib.fst_version())
 
 #: The optional parts of the library, and whether this build and machine have them.
-components = _text_of(_lib.fst_tools_components())
+components: str
+
+
+def __getattr__(name: str) -> str:
+    if name != "components":  # looked for when asked, because modules such as that of MPI are loaded for it
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return _text_of(_lib.fst_tools_components(_ffi.new("char[]", _lib.FST_COMPONENTS_SIZE)))
+
 
 __all__ = [
     "BadInput",
@@ -53,6 +67,7 @@ __all__ = [
     "Lyapunov",
     "MaterialWarning",
     "Measurement",
+    "MissingFile",
     "NoConvergence",
     "NotFinite",
     "Orbit",
@@ -70,6 +85,7 @@ __all__ = [
     "fit",
     "measure",
     "paper",
+    "plots",
     "read",
     "read_track",
     "save_points",
@@ -77,3 +93,8 @@ __all__ = [
     "sweep",
     "track",
 ]
+
+
+def __dir__() -> "List[str]":
+    """What an editor completes: public names, not the modules in which they are."""
+    return [*__all__, "__version__"]

@@ -82,6 +82,15 @@ def bead_card(bead: Any) -> str:
     )
 
 
+def trajectory_card(samples: Any) -> str:
+    """A trajectory: how much of it there is, and its path, of at most some thousand corners."""
+    if samples.dtype.names is None or samples.ndim != 1 or samples.bead is None:
+        return f"<pre>{html.escape(repr(samples))}</pre>"
+    few = samples[:: 1 + len(samples) // 4000]
+    path = path_svg(few.x, few.y) if len(few) else ""
+    return path + "".join(f"<p>{html.escape(line)}</p>" for line in samples._told())
+
+
 def run_card(run: Any) -> str:
     """The numbers of a run, scaled and in units of a laboratory."""
     lab = run.lab

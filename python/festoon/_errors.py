@@ -1,5 +1,8 @@
 """What can go wrong, as exceptions with the library's own sentences."""
 
+import errno
+import os
+import re
 from typing import Any, Dict, Tuple, Type
 
 from ._festoon import lib
@@ -13,9 +16,12 @@ class FestoonError(Exception):
     """An error of the library: `where` it lies, and a `sentence` that says what it is and what to try."""
 
     def __init__(self, where: str, sentence: str) -> None:
-        super().__init__(f"{where}: {sentence}" if where else sentence)
+        super().__init__(f"{where}: {sentence}" if where and not sentence.startswith(where) else sentence)
         self.where = where
         self.sentence = sentence
+
+    def __str__(self) -> str:
+        return str(self.args[0])  # not the "[Errno 2]" of an OSError
 
     def __reduce__(self) -> Tuple[Any, ...]:
         return _rebuild, (type(self), self.where, self.sentence)
@@ -39,6 +45,14 @@ class NoConvergence(FestoonError):
 
 class InputOutput(FestoonError, OSError):
     """A file could not be read or written."""
+
+
+class MissingFile(BadInput, InputOutput, FileNotFoundError):
+    """A file, or the folder into which one is to go, is not there."""
+
+    def __init__(self, where: str, sentence: str) -> None:
+        super().__init__(where, sentence)
+        self.errno, self.strerror, self.filename = errno.ENOENT, os.strerror(errno.ENOENT), where
 
 
 class OutOfMemory(FestoonError, MemoryError):
@@ -66,3 +80,53 @@ ERRORS: Dict[int, Type[FestoonError]] = {
     lib.FST_NO_MEMORY: OutOfMemory,
     lib.FST_UNAVAILABLE: Unavailable,
 }
+
+#: What the library's sentences call by names of C, and the same in Python.
+CALLS = {
+    "fst_param_at()": "festoon.schema()",
+    "fst_orbit_find()": "Bead.orbit()",
+    "fst_lyapunov_find()": "Bead.lyapunov()",
+    "fst_locked_find()": "Bead.locked()",
+    "fst_sweep_export()": "festoon.export()",
+    "fst_sweep()": "festoon.sweep()",
+    "fst_branch_write()": "Branch.save()",
+    "fst_run_json()": "Run.to_dict()",
+    "fst_track_options.scale": "scale",
+    "fst_measure_options.drive": "drive",
+}
+
+#: Arguments that have another name in Python than in C.
+ARGUMENTS = {
+    "from": "begin",
+    "to": "end",
+    "axes": "sweep",
+    "key": "branch",
+    "second_key": "branch",
+    "second_from": "branch",
+    "longest_step": "step",
+}
+
+
+def place_in_python(where: str) -> str:
+    """Where an error lies: an argument of a call, or the call, by its name in Python."""
+    if not where.startswith("fst_"):
+        return where
+    call, _, argument = where[len("fst_") :].partition(".")
+    if argument:
+        return "branch" if call == "branch_options" and argument in ("from", "to") else ARGUMENTS.get(argument, argument)
+    return re.sub("_(options|new|find|of|follow|near)$", "", call)
+
+
+def sentence_in_python(sentence: str) -> str:
+    """A sentence of the library with names of Python in the place of those of C."""
+    for name, ours in CALLS.items():
+        sentence = sentence.replace(name, ours)
+    return sentence
+
+
+def exception_of(code: int, where: str, sentence: str) -> FestoonError:
+    """The exception of a status of the library."""
+    kind = ERRORS.get(code, FestoonError)
+    if kind in (BadInput, InputOutput) and sentence.endswith(os.strerror(errno.ENOENT)):
+        kind = MissingFile
+    return kind(place_in_python(where), sentence_in_python(sentence))

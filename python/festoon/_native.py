@@ -2,11 +2,11 @@
 
 import os
 import threading
-from typing import TYPE_CHECKING, Any, Callable, Iterator, List, Optional, Tuple, Type
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Optional, Tuple, Type
 
 import numpy as np
 
-from ._errors import ERRORS, FestoonError, Interrupted
+from ._errors import Interrupted, OutOfMemory, exception_of
 from ._festoon import ffi, lib
 from ._progress import Progress, bar_for
 
@@ -18,12 +18,15 @@ __all__ = [
     "call",
     "dtype_of",
     "error_of",
+    "exception_of",
     "ffi",
+    "lent",
     "lib",
     "new_error",
     "options_of",
     "owned_array",
     "rows_of",
+    "state_of",
     "take_text",
     "text_of",
 ]
@@ -34,10 +37,15 @@ def text_of(pointer: Any) -> str:
     return str(ffi.string(pointer).decode("utf-8", "replace")) if pointer else ""
 
 
+def places_of(names: Any) -> Dict[str, int]:
+    """The names of a list "one|two|..." and their places, which are the numbers of an enum."""
+    return {name: place for place, name in enumerate(text_of(names).split("|"))}
+
+
 def take_text(pointer: Any) -> str:
     """A C string that the caller must free."""
     if not pointer:
-        raise MemoryError("no memory")
+        raise OutOfMemory("", "no memory for a text")
     try:
         return text_of(pointer)
     finally:
@@ -60,9 +68,8 @@ def new_error() -> Any:
 
 
 def error_of(error: Any) -> BaseException:
-    """The exception of a filled-in fst_error, with its words unchanged."""
-    kind = ERRORS.get(int(error.code), FestoonError)
-    return kind(text_of(error.where), text_of(error.sentence))
+    """The exception of a filled-in fst_error, with its words, but for names of C."""
+    return exception_of(int(error.code), text_of(error.where), text_of(error.sentence))
 
 
 def call(function: Callable[..., int], *arguments: Any) -> None:
@@ -121,11 +128,14 @@ class Watch:
         if threading.current_thread() is not threading.main_thread():  # Python has no Ctrl-C here
             self.call(function, *arguments)
             return
-        error, status, ended = new_error(), [lib.FST_NO_MEMORY], threading.Event()
+        error, status, ended = new_error(), [lib.FST_OK], threading.Event()
+        raised: List[BaseException] = []
 
         def work(*kept: Any) -> None:
             try:
                 status[0] = function(*arguments, error)
+            except BaseException as exception:  # such as a MemoryError before the call
+                raised.append(exception)
             finally:
                 ended.set()
 
@@ -140,6 +150,8 @@ class Watch:
             self._given_up = True
             raise
         self._apart = False
+        if raised:
+            raise raised[0]
         if status[0] != lib.FST_OK:
             raise error_of(error)
 
@@ -199,13 +211,25 @@ def dtype_of(ctype: Any) -> Any:
     return np.dtype(f"{'u' if unsigned else 'i'}{size}")
 
 
-def owned_array(pointer: Any, count: int, dtype: Any, owner: Any) -> Any:
+def lent(array: Any) -> Any:
+    """An array of a result, which nobody changes by mistake: it can be read alone."""
+    array.flags.writeable = False
+    return array
+
+
+def state_of(numbers: Any) -> Any:
+    """Numbers of the library as an array that can be read."""
+    return lent(np.array(list(numbers)))
+
+
+def owned_array(pointer: Any, count: int, dtype: Any, owner: Any, writable: bool = False) -> Any:
     """An array over C memory, no copy; it keeps `owner`, whose end frees the memory, alive."""
     dtype = np.dtype(dtype)
     if not count:
-        return np.zeros(0, dtype)
+        return lent(np.zeros(0, dtype))
     anchor = ffi.gc(pointer, lambda _, owner=owner: None)
-    return np.frombuffer(ffi.buffer(anchor, count * dtype.itemsize), dtype)
+    made = np.frombuffer(ffi.buffer(anchor, count * dtype.itemsize), dtype)
+    return made if writable else lent(made)
 
 
 def freed_array(pointer: Any, count: int, dtype: Any) -> Any:
@@ -213,9 +237,9 @@ def freed_array(pointer: Any, count: int, dtype: Any) -> Any:
     dtype = np.dtype(dtype)
     if not count:
         lib.pyf_free(pointer)
-        return np.zeros(0, dtype)
+        return lent(np.zeros(0, dtype))
     owned = ffi.gc(pointer, lib.pyf_free, count * dtype.itemsize)
-    return np.frombuffer(ffi.buffer(owned, count * dtype.itemsize), dtype)
+    return lent(np.frombuffer(ffi.buffer(owned, count * dtype.itemsize), dtype))
 
 
 def rows_of(what: str) -> Iterator[Any]:

@@ -1,110 +1,51 @@
 """Paths of the bead, orbits, and the magnet's field, in matplotlib's Axes."""
 
-from typing import Any, Optional, Tuple
+from typing import Any, Optional
 
 import numpy as np
 
 from . import _style
-from ._errors import BadInput
-from ._native import lib
+from ._native import call, ffi, lib, text_of
+from ._quantities import UNITS, units_of
 from ._tables import COLUMNS
 from .orbits import _choose
 
 
-#: Points of a smooth path, and the most pieces that are drawn between two samples.
-_ENOUGH, _PIECES = 6000, 8
 #: Of an orbit in its period.
 _SAMPLES = 480
-#: About as many arrows as a picture can bear; as a path from side to side can; the longest one in sides.
-_ARROWS, _ARROWS_ALONG, _LONGEST_ARROW = 110, 18, 0.07
 
 # ---------------------------------------------------------------------------------------- trajectories
 
-_FRAMES = {
-    "lab": ("x", "y", "vx", "vy", "n_x", "n_y"),
-    "magnet": ("X", "Y", "vX", "vY", "nX", "nY"),
-}
+_FRAMES = ("lab", "magnet")
 
 
-def _rows_shown(tr: Any, begin: Optional[float], end: Optional[float], turns: float, periods: float) -> slice:
-    """The samples that are shown: those asked for, or as many from the discard on as make a good picture."""
-    drive, alpha = tr._column("drive_turns"), tr._column("alpha")
-    start = begin
-    if start is None:
-        discard = float(lib.fst_run_discard(tr.bead._params))
-        start = discard if len(drive) and drive[-1] > discard else 0.0
-    first = int(np.searchsorted(drive, start - 1e-9))
+def _options(kind: str, colour: str, units: str, begin: Optional[float], end: Optional[float]) -> Any:
+    """Options of the library's figures, and what must stay alive with them."""
+    options = ffi.new("fst_figure_options *", lib.fst_default_figure_options())
+    options.kind = getattr(lib, f"FST_FIGURE_{kind}")
+    kept = ffi.new("char[]", colour.encode())
+    options.colour, options.units = kept, units_of(units)
+    if begin is not None:
+        setattr(options, "from", begin)
     if end is not None:
-        last = int(np.searchsorted(drive, end + 1e-9, side="right"))
-    elif first < len(drive):
-        over = (drive[first:] - drive[first] > periods) | (
-            np.abs(alpha[first:] - alpha[first]) > 2 * np.pi * turns
-        )
-        last = first + int(np.argmax(over)) if over.any() else len(drive)
-    else:
-        last = first
-    if last - first < 2:
-        ends = drive[-1] if len(drive) else 0.0
-        raise BadInput(
-            "begin",
-            f"fewer than two samples from drive period {start:g} on: the trajectory has {len(drive)} samples"
-            f" and ends at period {ends:g}",
-        )
-    return slice(first, last)
+        options.to = end
+    return options, kept
 
 
-def _smooth(t: Any, x: Any, v: Any, pieces: int) -> Any:
-    """Cubics through samples with velocities, `pieces` between two of them."""
-    part = np.arange(pieces) / pieces
-    rest = 1 - part
-    h = np.diff(t)[:, None]
-    curve = rest**2 * ((1 + 2 * part) * x[:-1, None] + part * h * v[:-1, None])
-    curve += part**2 * ((1 + 2 * rest) * x[1:, None] - rest * h * v[1:, None])
-    return np.append(curve.ravel(), x[-1])
+def _magnet(ax: Any, picture: Any) -> None:
+    """The lines of the magnet, from above."""
+    for line in (picture.lines[i] for i in range(picture.line_count)):
+        x, y = (_style.numbers(values, line.count) for values in (line.x, line.y))
+        if line.is_ground:
+            ax.fill(x, y, facecolor="#f3f3f3", edgecolor="none", zorder=0.5)
+        ax.plot(x, y, color=text_of(line.colour), linewidth=0.8 * line.width, label=_style.lowered(line.words), zorder=1.4)
 
 
-def _linear(values: Any, pieces: int) -> Any:
-    part = np.arange(pieces) / pieces
-    return np.append((values[:-1, None] + part * np.diff(values)[:, None]).ravel(), values[-1])
-
-
-def _path(tr: Any, frame: str) -> Tuple[Any, Any, Any, int]:
-    """The path and the parameter of its points.  In the magnet's frame a velocity is what a camera sees that turns
-    with the magnet."""
-    x, y, vx, vy = (tr._column(name) for name in _FRAMES[frame][:4])
-    if frame == "magnet":
-        omega = tr._column("omega")
-        vx, vy = vx + omega * y, vy - omega * x
-    pieces = max(1, min(_PIECES, _ENOUGH // len(x)))
-    t = tr._column("t")
-    return _smooth(t, x, vx, pieces), _smooth(t, y, vy, pieces), t, pieces
-
-
-def _outline(ax: Any, tr: Any, frame: str, length: float) -> None:
-    """The magnet's lines at the beginning, where the magnet is one of lines."""
-    bead = tr.bead
-    if bead.magnet__shape != "lines":
-        return
-    turned = 0.0 if frame == "magnet" else tr._column("alpha")[0] - tr._column("Phi")[0]
-    wide = 0.5 * (bead.groups.lines - 1) * bead.groups.lambda_
-    corners = length * np.array([(-1, -wide), (1, -wide), (1, wide), (-1, wide), (-1, -wide)])
-    cosine, sine = np.cos(turned), np.sin(turned)
-    x, y = corners[:, 0] * cosine - corners[:, 1] * sine, corners[:, 0] * sine + corners[:, 1] * cosine
-    words = "magnet's lines" + ("" if frame == "magnet" else " at the beginning; it turns anticlockwise")
-    ax.fill(x, y, facecolor="#f3f3f3", edgecolor="none", zorder=0.5)
-    ax.plot(x, y, color="#b4b4b4", linewidth=1, label=words, zorder=0.6)
-
-
-def _moments(ax: Any, tr: Any, frame: str, length: float, side: float) -> None:
+def _moments(ax: Any, picture: Any) -> None:
     """Arrows of the moment's horizontal part, each as long as that part."""
-    names = _FRAMES[frame]
-    x, y = (length * tr._column(name) for name in names[:2])
-    along = float(np.hypot(np.diff(x), np.diff(y)).sum())
-    stride = len(x) // int(min(_ARROWS, 1 + _ARROWS_ALONG * along / side)) + 1
-    scale = _LONGEST_ARROW * side
-    n_x, n_y = (scale * tr._column(name)[::stride] for name in names[4:6])
+    arrows = _style.numbers(picture.arrows, 4 * picture.arrow_count).reshape(-1, 4).T
     ax.quiver(
-        x[::stride], y[::stride], n_x, n_y, angles="xy", scale_units="xy", scale=1, color=_style.colour("grey"),
+        *arrows, angles="xy", scale_units="xy", scale=1, color=_style.colour("grey"),
         width=0.0028, headwidth=4, headlength=5, headaxislength=4.6, zorder=1.5,
     )
     from matplotlib.lines import Line2D
@@ -130,6 +71,8 @@ def trajectory(
 
     Parameters
     ----------
+    tr
+        A `Trajectory`.
     colour
         The column that colours the path, one of those of the trajectory: n_z, slip, angle, B, ...
     over
@@ -137,55 +80,61 @@ def trajectory(
     frame
         "lab": as a camera over the plate sees it; "magnet": as one that turns with the magnet does.
     units
-        "lab" (mm, s, Hz), "scaled" or "si"; "given": scaled where the drive is.
+        "lab" (mm, s, Hz), "scaled" or "si"; "given": those of a laboratory for paths; over a column, scaled where
+        the drive is.
     begin, end
         The drive periods shown; without them as many from run.discard on as make a good picture.
     arrows
         Whether arrows show the horizontal part of the moment.
     ax
         The Axes to draw into; without it a new figure is made.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        The Axes with the picture, in which all can still be changed.
+
+    Raises
+    ------
+    BadInput
+        Where a name is unknown; the sentence has the nearest.
+    Unavailable
+        Where matplotlib is missing.
     """
     columns = list(COLUMNS)
     _choose(colour, columns, "colour")
     _choose(frame, list(_FRAMES), "frame")
-    if units == "given":
-        units = _style.units_of_bead(tr.bead._params)
     if over is not None:
         _choose(over, columns, "over")
         return _column_over(tr, colour, over, units, begin, end, ax)
-    tr = tr[_rows_shown(tr, begin, end, 2.0, 30.0)]
     from matplotlib.collections import LineCollection
 
+    (options, _kept), (table, _columns) = _options("PATH", colour, units, begin, end), tr._table()
+    options.from_magnet, options.arrows = frame == "magnet", arrows
+    picture = ffi.gc(ffi.new("fst_path_picture *"), lib.fst_path_picture_free)
+    call(lib.fst_path_picture_of, table, options, picture)
     ax = _style.axes(ax, 5.4, 5.8)
-    place = _style.of_column("x", units, tr.bead._params)
-    shown = _style.of_column(colour, units, tr.bead._params)
-    x, y, _, pieces = _path(tr, frame)
-    x, y = place.factor * x, place.factor * y
-    values = shown.factor * _linear(tr._column(colour), pieces)
-    cmap, norm = _style.colours_between(colour, float(np.nanmin(values)), float(np.nanmax(values)))
+    x, y, values = (_style.numbers(pointer, picture.count) for pointer in (picture.x, picture.y, picture.colour))
+    cmap, norm = _style.colours_in(picture.colours)
     points = np.stack([x, y], axis=1)
     lines = LineCollection(
         np.stack([points[:-1], points[1:]], axis=1), cmap=cmap, norm=norm, linewidth=1.8, capstyle="round", zorder=2
     )
     lines.set_array(values[:-1])
-    reach = max(1.12 * float(np.abs(points).max()), 1.12 * place.factor)
-    _outline(ax, tr, frame, place.factor)
-    if arrows:
-        _moments(ax, tr, frame, place.factor, 2 * reach)
+    _magnet(ax, picture)
+    if picture.arrow_count:
+        _moments(ax, picture)
     ax.add_collection(lines)
     ax.plot(
         x[:1], y[:1], "o", markersize=7, markerfacecolor="white", markeredgewidth=1.8,
         color=_style.colour("black"), label="the bead at the beginning", zorder=3,
     )
     ax.set_aspect("equal")
-    ax.set_xlim(-reach, reach)
-    ax.set_ylim(-reach, reach)
-    omega = tr._column("omega")
-    words = ("x", "y") if frame == "lab" else ("X, along the magnet", "Y")
-    labels = [place.label.replace("x", word, 1) for word in words]
-    title = "Path of the bead " + ("over the plate" if frame == "lab" else "as seen from the magnet")
-    _style.dress(ax, title, _style.about_bead(tr.bead, (float(omega[0]), float(omega[-1]))), *labels)
-    _style.scale_beside(ax, lines, shown.label)
+    ax.set_xlim(picture.box[0], picture.box[1])
+    ax.set_ylim(picture.box[2], picture.box[3])
+    labels = (_style.lowered(label) for label in (picture.x_label, picture.y_label))
+    _style.dress(ax, text_of(picture.title), text_of(picture.about), *labels)
+    _style.scale_beside(ax, lines, _style.lowered(picture.colour_label))
     _style.key_below(ax, columns=1)
     return ax
 
@@ -193,14 +142,15 @@ def trajectory(
 def _column_over(
     tr: Any, name: str, over: str, units: str, begin: Optional[float], end: Optional[float], ax: Any
 ) -> Any:
-    tr = tr[_rows_shown(tr, begin, end, np.inf, 8.0)]
+    (options, _kept), (table, _columns) = _options("TIME", name, units, begin, end), tr._table()
+    part = ffi.new("fst_figure_part *")
+    call(lib.fst_figure_part_of, table, options, part)
+    tr = tr[part.first : part.last]
     ax = _style.axes(ax, 6.2, 3.4)
-    x = _style.of_column(over, units, tr.bead._params)
-    y = _style.of_column(name, units, tr.bead._params)
+    units = next(name for name, place in UNITS.items() if place == part.units)
+    x, y = (_style.of_column(column, units, tr.bead._params) for column in (over, name))
     ax.plot(x.factor * tr._column(over), y.factor * tr._column(name), color=_style.colour("blue"), linewidth=1.5)
-    omega = tr._column("omega")
-    about = _style.about_bead(tr.bead, (float(omega[0]), float(omega[-1])))
-    _style.dress(ax, f"{y.words} over {x.words}", about, x.label, y.label)
+    _style.dress(ax, f"{y.words} over {x.words}", text_of(part.about), x.label, y.label)
     return ax
 
 
@@ -208,7 +158,31 @@ def _column_over(
 
 
 def orbit(o: Any, colour: str = "n_z", *, frame: str = "magnet", **options: Any) -> Any:
-    """Draw an orbit over one period, closed as seen from the magnet; options are those of `trajectory`."""
+    """Draw an orbit over one period, closed as seen from the magnet; options are those of `trajectory`.
+
+    Parameters
+    ----------
+    o
+        An `Orbit`.
+    colour
+        The column that colours the path.
+    frame
+        "magnet" or "lab".
+    **options
+        Those of `trajectory`.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        The Axes with the picture, in which all can still be changed.
+
+    Raises
+    ------
+    BadInput
+        Where a name is unknown; the sentence has the nearest.
+    Unavailable
+        Where matplotlib is missing.
+    """
     periods = abs(o.bead.omega * o.period / (2 * np.pi))
     # So many samples in a period that the last one closes the curve.
     rate = _SAMPLES * o.bead.gamma / o.period
@@ -227,64 +201,72 @@ def orbit(o: Any, colour: str = "n_z", *, frame: str = "magnet", **options: Any)
 
 
 def field(
-    bead: Any, *, units: str = "given", half_width: float = 1.9, half_height: float = 1.5, ax: Any = None
+    bead: Any, *, units: str = "given", half_width: Optional[float] = None, half_height: Optional[float] = None,
+    ax: Any = None,
 ) -> Any:
     """Draw the map of ``|B|`` on the plane of the bead's centre, with arrows of the part in the plane.
 
     Parameters
     ----------
+    bead
+        A `Bead`.
     units
         "lab" (mm, mT where B0 follows from the bead), "scaled" or "si".
     half_width, half_height
-        Of the map, in l.
+        Of the map, in l; without them it shows the whole magnet.
     ax
         The Axes to draw into; without it a new figure is made.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        The Axes with the picture, in which all can still be changed.
+
+    Raises
+    ------
+    BadInput
+        Where a name is unknown; the sentence has the nearest.
+    Unavailable
+        Where matplotlib is missing.
     """
     if units == "given":
         units = _style.units_of_bead(bead._params)
-    ax = _style.axes(ax, 6.0, 4.6)
-    place = _style.of_column("x", units, bead._params)
-    strength = _style.of_column("B", units, bead._params)
-    x = np.linspace(-half_width, half_width, 181)
-    y = np.linspace(-half_height, half_height, 145)
-    b, _ = bead.field(*np.meshgrid(x, y))
-    size = strength.factor * np.linalg.norm(b, axis=-1)
-    across, up = place.factor * x, place.factor * y
-    drawn = ax.pcolormesh(across, up, size, cmap=_style.palette("map"), vmin=0, shading="gouraud", rasterized=True)
-    levels = ax.contour(across, up, size, levels=8, colors="#0b2a4a", linewidths=0.7, alpha=0.75)
-    ax.clabel(levels, fontsize=8, fmt="%.4g", inline=True)
-    step = 12
-    part = slice(step // 2, None, step)
-    plane = b[part, part, :2]
-    flat = np.hypot(plane[..., 0], plane[..., 1])
-    longest = 1.1 * place.factor * (x[step] - x[0])
-    with np.errstate(invalid="ignore", divide="ignore"):
-        arrow = np.where(flat[..., None] > 0, plane / flat[..., None] * np.sqrt(flat / flat.max())[..., None], 0)
+    options = ffi.new("fst_field_options *", lib.fst_default_field_options())
+    options.units = units_of(units)
+    for name, half in (("half_width", half_width), ("half_height", half_height)):
+        if half is not None:
+            setattr(options, name, half)
+    picture = ffi.gc(ffi.new("fst_field_picture *"), lib.fst_field_picture_free)
+    call(lib.fst_field_picture_of, bead._params, options, picture)
+    ax = _style.axes(ax, 6.0, 5.4)
+    x, y = (np.linspace(picture.box[i], picture.box[i + 1], n) for i, n in ((0, picture.columns), (2, picture.rows)))
+    masked: Any = np.ma.masked_invalid
+    values = masked(_style.numbers(picture.values, picture.columns * picture.rows).reshape(len(y), len(x)))
+    cmap, norm = _style.colours_in(picture.colours)
+    drawn = ax.pcolormesh(x, y, values, cmap=cmap, norm=norm, shading="gouraud", rasterized=True)
+    levels = ax.contour(x, y, values, levels=list(picture.levels)[: picture.level_count], colors="#4f759b", linewidths=0.7)
+    places = [(label[0], label[1]) for label in list(picture.labels)[: picture.label_count]]
+    if places:
+        ax.clabel(levels, fontsize=8, fmt="%.4g", inline=True, manual=places, colors="#0b2a4a")
     ax.quiver(
-        across[part], up[part], longest * arrow[..., 0], longest * arrow[..., 1], pivot="middle", angles="xy",
-        scale_units="xy", scale=1, color="#333333", width=0.0026,
+        *_style.numbers(picture.arrows, 4 * picture.arrow_count).reshape(-1, 4).T, angles="xy", scale_units="xy", scale=1,
+        color="#333333", width=0.0026,
     )
-    _lines_of_magnet(ax, bead, place.factor)
+    _magnet(ax, picture)
+    maxima = np.array([tuple(place) for place in picture.maxima][: picture.maximum_count]).reshape(-1, 2)
+    if len(maxima):
+        ax.plot(*maxima.T, "x", color="black", markersize=7, markeredgewidth=2, label="maxima of |B|", zorder=3)
+    if picture.distance[0] != b"\0":
+        ax.plot(*maxima.T, color="black", linewidth=1.2, zorder=3)
+        ax.annotate(
+            text_of(picture.distance), maxima.mean(axis=0), xytext=(0, 4), textcoords="offset points", ha="center",
+            fontsize=8,
+        )
     ax.set_aspect("equal")
-    label = place.label
-    _style.dress(
-        ax, "The magnet's field at the height of the bead",
-        "lines and shades: |B|; arrows: its part in the plane",
-        label.replace("x", "X", 1), label.replace("x", "Y", 1),
-    )
+    ax.plot([], [], color="#4f759b", linewidth=0.7, label=_style.lowered(picture.level_words))
+    about = f"{text_of(picture.about)}; arrows: {text_of(picture.arrow_words).split(':')[0]}"
+    _style.dress(ax, text_of(picture.title), about, text_of(picture.x_label), text_of(picture.y_label))
     ax.grid(False)
-    _style.scale_beside(ax, drawn, strength.label)
+    _style.scale_beside(ax, drawn, _style.lowered(picture.colour_label))
     _style.key_below(ax, columns=1)
     return ax
-
-
-def _lines_of_magnet(ax: Any, bead: Any, length: float) -> None:
-    if bead.magnet__shape != "lines":
-        return
-    groups = bead.groups
-    for i in range(groups.lines):
-        y = length * (i - 0.5 * (groups.lines - 1)) * groups.lambda_
-        ax.plot(
-            (-length, length), (y, y), color=_style.colour("vermilion"), linewidth=1.5,
-            label=None if i else "the magnet's lines", zorder=2,
-        )

@@ -6,7 +6,7 @@ import numpy as np
 
 from . import _style
 from ._errors import BadInput
-from ._native import lib, text_of
+from ._native import call, ffi, lib, text_of
 from .orbits import _choose
 
 # ---------------------------------------------------------------------------------------- fits
@@ -16,34 +16,29 @@ def _measured() -> List[str]:
     return [text_of(lib.fst_measured_name(i)) for i in range(lib.FST_MEASURED_COUNT)]
 
 
-def _quantity_of(name: str, index: int, params: Any) -> Any:
-    """How a measured quantity, which is in SI, is shown."""
-    if lib.fst_measured_unit(index) != lib.FST_UNIT_LENGTH:
-        return _style.of_result(name, "Hz", "lab", _style.scales_of(params))
-    return _style.of_result(name, "l", "lab", _style.scales_of(params))._replace(factor=1e3)
-
-
-def _numbers_of(fit: Any, what: int, used: bool) -> Dict[str, Any]:
-    rows = [n for n in (fit._fit.numbers[i] for i in range(fit._fit.number_count)) if n.what == what]
-    rows = [n for n in rows if bool(n.used) == used]
-    points = [fit._points.rows[n.row] for n in rows]
-    return {
-        "x": np.array([point.frequency for point in points]),
-        "xerr": np.nan_to_num([point.frequency_error for point in points]),
-        "y": np.array([n.value for n in rows]),
-        "yerr": np.array([point.error[what] for point in points]),
-    }
-
-
 def fit(f: Any, y: Optional[str] = None, *, ax: Any = None) -> Any:
-    """Draw measured points with their errors over the fitted model with its uncertainty.
+    """Draw measured points with their errors over the fitted model with its uncertainty, and below what is left.
 
     Parameters
     ----------
+    f
+        A `Fit`.
     y
         "mean_r", "std_r" or "bead_frequency"; by default the first that was measured.
     ax
-        The Axes to draw into; without it a new figure is made.
+        The Axes to draw into, without what is left; without it a new figure is made, of both.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        The Axes with the picture, in which all can still be changed.
+
+    Raises
+    ------
+    BadInput
+        Where a name is unknown; the sentence has the nearest.
+    Unavailable
+        Where matplotlib is missing.
     """
     names = _measured()
     if f._points is None:
@@ -56,30 +51,24 @@ def fit(f: Any, y: Optional[str] = None, *, ax: Any = None) -> Any:
         raise BadInput("y", f"the table has no {y}; it has {', '.join(names[i] for i in sorted(there))}")
     if f._fit.curve_count < 2:
         raise BadInput("curve_points", "the fit was made without curves: say fit(..., curve_points=60)")
-    ax = _style.axes(ax, 6.0, 4.4)
-    shown = _quantity_of(names[what], what, f.bead._params)
-    curve = [f._fit.curve[i] for i in range(f._fit.curve_count)]
-    x = np.array([point.frequency for point in curve])
-    model = shown.factor * np.array([point.value[what] for point in curve])
-    spread = shown.factor * np.array([point.spread[what] for point in curve])
-    blue = _style.colour("blue")
-    ax.fill_between(
-        x, model - spread, model + spread, color=blue, alpha=0.22, linewidth=0,
-        label="uncertainty of the model (one standard deviation)",
-    )
-    ax.plot(x, model, color=blue, linewidth=1.6, label="model")
-    for used, words, colour, inside in ((True, "measured", "black", None), (False, "left out", "vermilion", "white")):
-        data = _numbers_of(f, what, used)
-        if len(data["x"]):
-            ax.errorbar(
-                data["x"], shown.factor * data["y"], shown.factor * data["yerr"], data["xerr"], fmt="o",
-                markersize=4.5, capsize=2.5, elinewidth=1.1, color=_style.colour(colour), markerfacecolor=inside,
-                label=words, zorder=3,
-            )
-    found = ", ".join(repr(parameter).replace("+-", "±") for parameter in f.parameters)
-    _style.dress(ax, "Measured points and the fitted model", found, "frequency of the magnet (Hz)", shown.label)
-    _style.key_below(ax)
-    return ax
+    made = ffi.new("fst_chart **")
+    call(lib.fst_chart_of_fit, f._points, f._fit, what, made)
+    chart = ffi.gc(made[0], lib.fst_chart_free)
+    both = [ax]
+    if ax is None:
+        shape = {"sharex": True, "figsize": (6.0, 6.0), "layout": "constrained", "gridspec_kw": {"height_ratios": (5, 3)}}
+        both = list(_style.pyplot().subplots(2, **shape)[1])
+    for i, place in enumerate(both):
+        panel = chart.panels[i]
+        for k in range(panel.curve_count):
+            _style.curve(place, panel.curves[k])
+        words = (text_of(chart.title), text_of(chart.about)) if i == 0 else ("", "")
+        below = _style.lowered(chart.x_label) if place is both[-1] else ""
+        _style.dress(place, *words, below, _style.lowered(panel.left_label))
+    both[0].set_xlim(chart.x_low, chart.x_high)
+    handles = {text: handle for place in both for handle, text in zip(*place.get_legend_handles_labels())}
+    _style.key_below(both[-1], list(handles.values()))
+    return both[0]
 
 
 # ---------------------------------------------------------------------------------------- measurements
@@ -88,25 +77,18 @@ _KINDS = ("path", "magnet", "radius")
 
 
 def _places(m: Any) -> Dict[str, Any]:
-    """The track on the plate about its centre, without the tilt of the camera; times as those of the wave."""
-    track, found = m.track, m._found
-    seen = track.flag != lib.FST_FRAME_LOST
-    clock = np.isfinite(track.fps)
-    t = track.t[seen] if clock else (track.frame[seen] - track.frame[0]).astype(float)
-    x, y = track.x[seen] - found.centre[0], track.y[seen] - found.centre[1]
-    xx, xy, yy = found.stretch
-    return {
-        "t": t, "x": xx * x + xy * y, "y": xy * x + yy * y, "clock": "s" if clock else "frames",
-        "used": track.flag[seen] != lib.FST_FRAME_REJECTED,
+    """The track on the plate about its centre, and as seen from the magnet."""
+    placed = ffi.gc(ffi.new("fst_placed_track *"), lib.fst_placed_track_free)
+    call(lib.fst_place_track, m.track._track, m._found, placed)
+    size = 8 * placed.count
+    found: Dict[str, Any] = {
+        name: np.frombuffer(ffi.buffer(getattr(placed, name), size)).copy() if size else np.empty(0)
+        for name in ("t", "x", "y", "seen_x", "seen_y", "r")
     }
-
-
-def _seen_from_magnet(found: Any, t: Any, x: Any, y: Any) -> Any:
-    """Places in the frame of the magnet, which turns anticlockwise in a film that is not mirrored."""
-    mirrored = (found.bead_frequency_hz > 0) != (found.filmed_sense > 0)
-    angle = 2 * np.pi * found.drive_from_track_hz * (t - found.wave_origin)
-    y = -y if mirrored else y
-    return np.cos(angle) * x + np.sin(angle) * y, np.cos(angle) * y - np.sin(angle) * x
+    rows = np.frombuffer(ffi.buffer(placed.row, size), np.uintp) if size else np.empty(0, int)
+    found["used"] = m.track.flag[rows.astype(int)] != lib.FST_FRAME_REJECTED
+    found["clock"] = text_of(placed.clock)
+    return found
 
 
 def measurement(m: Any, kind: str = "path", *, ax: Any = None) -> Any:
@@ -114,11 +96,25 @@ def measurement(m: Any, kind: str = "path", *, ax: Any = None) -> Any:
 
     Parameters
     ----------
+    m
+        A `Measurement`.
     kind
         "path": on the plate, about the centre that was found; "magnet": as seen from the turning magnet; "radius":
         the distance from the centre over one swing, with the curve that was fitted to it.
     ax
         The Axes to draw into; without it a new figure is made.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        The Axes with the picture, in which all can still be changed.
+
+    Raises
+    ------
+    BadInput
+        Where a name is unknown; the sentence has the nearest.
+    Unavailable
+        Where matplotlib is missing.
     """
     _choose(kind, list(_KINDS), "kind")
     p, found = _places(m), m._found
@@ -129,9 +125,7 @@ def measurement(m: Any, kind: str = "path", *, ax: Any = None) -> Any:
     if kind == "radius":
         _radius(ax, m, p)
         return ax
-    x, y = p["x"], p["y"]
-    if kind == "magnet":
-        x, y = _seen_from_magnet(found, p["t"], x, y)
+    x, y = (p["seen_x"], p["seen_y"]) if kind == "magnet" else (p["x"], p["y"])
     used = p["used"]
     ax.plot(x[used], y[used], ".", markersize=2.2, color=_style.colour("blue"), label="the bead, frame by frame")
     if not used.all():
@@ -164,14 +158,11 @@ def _radius(ax: Any, m: Any, p: Dict[str, Any]) -> None:
     part = np.mod(hertz * since, 1.0)
     used = p["used"]
     ax.plot(
-        part[used], np.hypot(p["x"], p["y"])[used], ".", markersize=2.2, color=_style.colour("black"),
+        part[used], p["r"][used], ".", markersize=2.2, color=_style.colour("black"),
         label="the bead, frame by frame",
     )
     u = np.linspace(0, 1, 361)
-    wave = np.full_like(u, found.wave_mean)
-    for k in range(lib.FST_WAVE_LIMIT):
-        angle = 2 * np.pi * (k + 1) * u
-        wave += found.wave_cos[k] * np.cos(angle) + found.wave_sin[k] * np.sin(angle)
+    wave = [lib.fst_fitted_radius(found, found.wave_origin + part / hertz) for part in u]
     ax.plot(u, wave, color=_style.colour("blue"), linewidth=1.8, label="what was fitted to it")
     one = f"{1 / hertz:.4g} {p['clock']}" if hertz else ""
     _style.dress(

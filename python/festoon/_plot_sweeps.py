@@ -6,7 +6,8 @@ import numpy as np
 
 from . import _style
 from ._errors import BadInput
-from ._native import lib
+from ._native import call, ffi, lib, text_of
+from ._quantities import units_of
 from ._tables import RESULTS
 from .bead import Bead, row_of
 from .orbits import _choose
@@ -23,31 +24,23 @@ class _Side:
 
     def __init__(self, sweep: Any, along: int, axis: Any, units: str) -> None:
         self.along = along
-        scales = _style.scales_of(lib.fst_grid_base(sweep._grid))
-        shown = _style.of_parameter(axis.key, units, scales)
-        if not np.isfinite(shown.factor):
-            raise BadInput("units", f"the units of {axis.key} do not follow from the scene: leave units=\"given\"")
+        keys = [text_of(lib.fst_grid_key(sweep._grid, i)) for i in range(lib.fst_grid_axis_count(sweep._grid))]
+        found = ffi.new("fst_sweep_axis *")
+        call(lib.fst_sweep_axis_of, sweep._grid, keys.index(axis.key), units_of(units), found)
+        shown = _style.Quantity(float(found.factor), _style.lowered(found.label))
         values = np.moveaxis(sweep.parameter(axis.keyword), along, 0).reshape(sweep.shape[along], -1)[:, 0]
         self.names: Optional[List[str]] = None
         kind, names, _ = row_of(axis.key)
         if kind == "str":
-            self.names = names.split(", ")
+            self.names = [name for name in names.split(", ") if name in values]  # those that were swept
             values = np.array([self.names.index(name) for name in values])
         self.values = values.astype(float) * (1.0 if self.names else shown.factor)
         self.label, self.words = shown.label, shown.words
+        self.logarithmic = bool(found.logarithmic) and len(self.values) > 1
 
     def text(self, i: int) -> str:
         """A value in the key."""
         return self.names[int(self.values[i])] if self.names else f"{self.values[i]:.4g}"
-
-    @property
-    def logarithmic(self) -> bool:
-        """Whether the values are spaced by a factor rather than by a difference."""
-        values = np.unique(self.values)
-        if self.names or len(values) < 4 or values[0] <= 0 or values[-1] < 5 * values[0]:
-            return False
-        ratios, steps = np.diff(np.log(values)), np.diff(values)
-        return bool(np.ptp(ratios) / ratios.mean() < np.ptp(steps) / steps.mean())
 
     def dress(self, axis: Any, scale: Any) -> None:
         """Ticks and scale of matplotlib's axis."""
@@ -95,6 +88,8 @@ def sweep(
 
     Parameters
     ----------
+    s
+        A `Sweep`.
     y
         What is drawn, "mean_r", "festoons", ... or "regime"; by default mean_r of curves and the regimes of a map.
     kind
@@ -105,6 +100,18 @@ def sweep(
         "lab" (mm, s, Hz), "scaled" or "si"; "given": those of a laboratory where a varied parameter has them.
     ax
         The Axes to draw into; without it a new figure is made.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        The Axes with the picture, in which all can still be changed.
+
+    Raises
+    ------
+    BadInput
+        Where a name is unknown; the sentence has the nearest.
+    Unavailable
+        Where matplotlib is missing.
     """
     if y is not None:
         _choose(y, ["regime", *RESULTS], "y")
@@ -140,8 +147,10 @@ def _about_sweep(s: Any) -> str:
     varied = [axis.key for axis in s.axes]
     words = "" if "model.dynamics" in varied else f"dynamics {base.model__dynamics}, "
     count = int(s.computed.sum())
-    part = "" if s.complete else f" at {100 * count / s.size:.3g} % of {s.size} points"
-    return f"{words}{count} runs of {base.run__periods:g} turns of the magnet{part}"
+    part = f" at {100 * count / s.size:.3g} % of {s.size} points" if s.refined else ""
+    of = "" if s.refined or count == s.size else f" of {s.size}"
+    part += " (interrupted)" if of else ""
+    return f"{words}{count}{of} runs of {base.run__periods:g} turns of the magnet{part}"
 
 
 def _regime_marks(ax: Any, x: Any, y: Any, regimes: Any) -> None:
@@ -211,24 +220,17 @@ def _map(s: Any, y: str, sides: List[_Side], units: str, ax: Any) -> Any:
 
 
 def _regime_cells(ax: Any, x: Any, y: Any, values: Any, between: Any, lacking: str) -> None:
-    """Cells in the colours of their regimes; paler those without a run, between runs that agree."""
-    from matplotlib.colors import ListedColormap, to_rgb
+    """Cells in the colours of their regimes, also those without a run, between runs that agree."""
+    from matplotlib.colors import ListedColormap
     from matplotlib.patches import Patch
 
     looks = [_style.look("regime", i) for i in range(len(REGIMES))]
     colours = ListedColormap([colour for _, colour in looks])
     colours.set_bad("white")
-    ax.pcolormesh(x, y, values, cmap=colours, vmin=-0.5, vmax=len(looks) - 0.5, rasterized=True)
-    has_pale = bool(np.isfinite(between).any())
-    pale = ListedColormap([0.5 + 0.5 * np.array(to_rgb(colour)) for _, colour in looks])
-    pale.set_bad((1.0, 1.0, 1.0, 0.0))
-    if has_pale:
-        ax.pcolormesh(x, y, between, cmap=pale, vmin=-0.5, vmax=len(looks) - 0.5, rasterized=True)
     values = np.where(np.isfinite(values), values, between)
+    ax.pcolormesh(x, y, values, cmap=colours, vmin=-0.5, vmax=len(looks) - 0.5, rasterized=True)
     there = np.unique(values[np.isfinite(values)]).astype(int)
     handles = [Patch(color=looks[i][1], label=looks[i][0]) for i in there]
-    if has_pale:
-        handles.append(Patch(color=pale(0), label="paler: not run"))
     if not np.isfinite(values).all():
         handles.append(Patch(facecolor="white", edgecolor="#888888", label=lacking))
     _style.key_below(ax, handles)

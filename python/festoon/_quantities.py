@@ -3,7 +3,7 @@
 from typing import Any, Dict, SupportsFloat, Tuple, Union
 
 from ._errors import BadInput
-from ._native import call, ffi, lib, text_of
+from ._native import call, ffi, lib, places_of, text_of
 
 
 class Unset:
@@ -23,12 +23,7 @@ UNSET = Unset()
 #: None: the parameter stays as it is; UNSET: as if it had never been given.
 Value = Union[None, float, int, str, Unset]
 
-UNITS = {
-    "given": lib.FST_SHOWN_AS_GIVEN,
-    "lab": lib.FST_SHOWN_LAB,
-    "scaled": lib.FST_SHOWN_SCALED,
-    "si": lib.FST_SHOWN_SI,
-}
+UNITS = places_of(lib.pyf_units)
 
 
 def value_text(value: Any, where: str) -> str:
@@ -72,17 +67,17 @@ class Scales:
         self._scales = ffi.new("fst_scales *", lib.fst_scales_of(params))
         self._known: Dict[str, Tuple[float, str]] = {}
 
-    def factor(self, unit: str) -> Tuple[float, str]:
-        """The factor of a unit of the tables, and the name of the unit that it leads to."""
-        if unit not in self._known:
+    def factor(self, number: str, unit: str) -> Tuple[float, str]:
+        """The factor of a number of the tables and its unit there, and the name of the unit that it leads to."""
+        if number not in self._known:
             name = ffi.new("const char **")
             kept = unit.encode()
-            factor = lib.fst_unit_shown(kept, self._units, self._scales, name)
-            self._known[unit] = (float(factor), text_of(name[0]))
-        return self._known[unit]
+            factor = lib.fst_number_shown(number.encode(), kept, self._units, self._scales, name)
+            self._known[number] = (float(factor), text_of(name[0]))
+        return self._known[number]
 
     def column(self, index: int) -> Tuple[float, str]:
-        """The same for a column of a trajectory: angular velocities are in rad/s."""
+        """The same for a column of a trajectory."""
         name = ffi.new("const char **")
         factor = lib.fst_column_shown(lib.fst_column_at(index), self._units, self._scales, name)
         return float(factor), text_of(name[0])

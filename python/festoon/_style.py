@@ -2,11 +2,13 @@
 
 import re
 import textwrap
-from typing import Any, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple
+
+import numpy as np
 
 from ._errors import Unavailable
 from ._native import ffi, lib, text_of
-from ._quantities import units_of
+from ._quantities import UNITS, units_of
 from ._tables import COLUMNS
 
 #: Letters of a title in an inch of the figure.
@@ -42,17 +44,17 @@ class Quantity(NamedTuple):
         return self.label.rsplit(" (", 1)[0]
 
 
+def lowered(label: Any) -> str:
+    """A label of the library, in which an underscore lowers the letter behind it, for matplotlib."""
+    return re.sub(r"_(\w)", r"$_{\\mathregular{\1}}$", text_of(label))
+
+
 def _quantity(raw: Any) -> Quantity:
-    label = ffi.string(raw.label).decode()
-    return Quantity(float(raw.factor), re.sub(r"_(\w)", r"$_{\\mathregular{\1}}$", label))
+    return Quantity(float(raw.factor), lowered(raw.label))
 
 
 def scales_of(params: Any) -> Any:
     return ffi.new("fst_scales *", lib.fst_scales_of(params))
-
-
-def of_parameter(key: str, units: str, scales: Any) -> Quantity:
-    return _quantity(lib.fst_quantity_of_parameter(key.encode(), units_of(units), scales))
 
 
 def of_result(key: str, unit: str, units: str, scales: Any) -> Quantity:
@@ -68,10 +70,9 @@ def of_column(name: str, units: str, params: Any) -> Quantity:
 
 def units_over(keys: Sequence[str]) -> str:
     """The units of a figure over these parameters where nobody asked for any."""
-    if any(key in ("magnet.half_length", "friction.gamma") for key in keys):
-        return "given"
-    lab = any(lib.fst_units_of_parameter(key.encode()) == lib.FST_SHOWN_LAB for key in keys)
-    return "lab" if lab else "scaled"
+    kept = [ffi.new("char[]", key.encode()) for key in keys]
+    found = lib.fst_units_over(kept, len(kept))
+    return next(name for name, place in UNITS.items() if place == found)
 
 
 def units_of_bead(params: Any) -> str:
@@ -102,29 +103,76 @@ def palette(name: str) -> Any:
     return made
 
 
-def colours_between(name: str, low: float, high: float) -> Tuple[Any, Any]:
-    """The palette and the range of a quantity that has values from `low` to `high`."""
+#: The library's palettes.
+_PALETTES = {getattr(lib, f"FST_PALETTE_{name.upper()}"): name for name in ("diverging", "line", "map")}
+
+
+def colours_in(found: Any) -> Tuple[Any, Any]:
+    """The palette and the range of an fst_colour_range."""
     pyplot()
     from matplotlib.colors import Normalize
 
-    both = low < 0 < high
-    if name == "n_z":
-        both, low, high = True, -1.0, 1.0
-    elif both:
-        high = max(-low, high)
-        low = -high
-    elif 0 <= low < 0.25 * high:
-        low = 0.0
-    if not high > low:
-        span = max(1e-3 * abs(low), 1e-12)
-        low, high = low - span, high + span
-    return palette("diverging" if both else "line"), Normalize(low, high)
+    return palette(_PALETTES[found.palette]), Normalize(found.low, found.high)
+
+
+def colours_between(name: str, low: float, high: float) -> Tuple[Any, Any]:
+    """The palette and the range of a quantity that has values from `low` to `high`."""
+    return colours_in(lib.fst_colours_between(name.encode(), low, high))
 
 
 def look(what: str, index: int) -> Tuple[str, str]:
     """Words and colour of a "regime" or of a "special" point."""
     found = getattr(lib, f"fst_{what}_look")(index)
     return text_of(found.words), text_of(found.colour)
+
+
+# ---------------------------------------------------------------------------------------- curves
+
+
+def numbers(pointer: Any, count: int) -> Any:
+    """So many numbers of the library, as an array of its own."""
+    return np.frombuffer(ffi.buffer(pointer, 8 * count)).copy() if count else np.empty(0)
+
+
+#: matplotlib's look of each style of a curve.
+_STYLES: Dict[str, Dict[str, Any]] = {
+    "LINE": {"linewidth": 1.8},
+    "DASHED": {"linestyle": "--", "linewidth": 1.4},
+    "POINTS": {"linestyle": "none", "marker": "o", "markersize": 4.5},
+    "OPEN_POINTS": {"linestyle": "none", "marker": "o", "markersize": 4.5, "markerfacecolor": "none"},
+    "DOTS": {"linestyle": "none", "marker": ".", "markersize": 2},
+}
+#: matplotlib's markers for gnuplot's numbers of them.
+_SIGNS = {1: "+", 2: "x", 3: "*", 5: "s", 7: "o", 9: "^", 11: "v", 13: "D"}
+
+
+def curve(ax: Any, curve: Any) -> None:
+    """A curve of a chart of the library."""
+    x, y = (numbers(values, curve.count) for values in (curve.x, curve.y))
+    spread, x_spread = (numbers(values, curve.count) if values else None for values in (curve.spread, curve.x_spread))
+    label: Optional[str] = text_of(curve.title) or None
+    code = text_of(lib.fst_colour_code(curve.colour))
+    if not (np.isfinite(x) & np.isfinite(y)).any():
+        return
+    if curve.style == lib.FST_CURVE_SIGNS:
+        marker = _SIGNS[curve.sign]
+        open_sign: Dict[str, Any] = (
+            {"linewidths": 1.8} if marker in "x+*" else {"edgecolors": "white", "linewidths": 0.6}
+        )
+        ax.scatter(x, y, s=52, marker=marker, color=code, label=label, zorder=4, **open_sign)
+        return
+    if curve.style == lib.FST_CURVE_BAND:
+        ax.fill_between(x, y - spread, y + spread, color=code, alpha=0.22, linewidth=0, label=label)
+        return
+    if spread is not None:
+        inside = "white" if curve.style == lib.FST_CURVE_OPEN_ERRORS else None
+        ax.errorbar(
+            x, y, spread, x_spread, fmt="o", markersize=4.5, capsize=2.5, elinewidth=1.1, color=code,
+            markerfacecolor=inside, label=label, zorder=3,
+        )
+        return
+    style = next(look for name, look in _STYLES.items() if curve.style == getattr(lib, f"FST_CURVE_{name}"))
+    ax.plot(x, y, color=code, label=label, **style)
 
 
 # ---------------------------------------------------------------------------------------- the Axes
@@ -177,17 +225,3 @@ def scale_beside(ax: Any, mappable: Any, label: str) -> Any:
     bar = ax.figure.colorbar(mappable, cax=beside, label=label)
     bar.outline.set_linewidth(0.6)
     return bar
-
-
-def about_bead(bead: Any, omega: Optional[Tuple[float, float]] = None) -> str:
-    """The drive and the law: "ω = 0.2151 (10.7 Hz), dynamics rigid"."""
-    first, last = omega or (bead.omega, bead.omega)
-    hertz = bead.gamma / 6.283185307179586
-    if abs(last - first) > 1e-9 * abs(last):
-        words = f"ω = {first:.4g} to {last:.4g} ({first * hertz:.4g} to {last * hertz:.4g} Hz)"
-    else:
-        words = f"ω = {last:.4g} ({last * hertz:.4g} Hz)"
-    words += f", dynamics {bead.model__dynamics}"
-    if bead.friction__law == "coulomb":
-        words += f", dry friction μ = {bead.mu:.3g}"
-    return words

@@ -1,9 +1,10 @@
 """The bead on its stirrer: a setup, and everything that can be asked of it."""
 
+import itertools
 import math
 import os
 import warnings
-from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Mapping, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, FrozenSet, Iterable, Iterator, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 
@@ -40,6 +41,19 @@ class MaterialWarning(UserWarning):
 def key_of(keyword: str) -> str:
     """The key of a keyword: frequency is drive.frequency, friction__law is friction.law."""
     return SHORT.get(keyword, keyword.replace("__", "."))
+
+
+def known_key(keyword: str) -> str:
+    """The key of a keyword; one without a group is a short one, or wrong: the nearest keyword is named."""
+    key = key_of(keyword)
+    if "." in key:
+        return key  # the library looks at it
+    names = {of.split(".")[1]: keyword_of(of) for of in reversed(PARAMETERS)}
+    names.update({keyword_of(of): keyword_of(of) for of in PARAMETERS})
+    nearest = ffi.new("char[]", 64)
+    lib.fst_nearest_name(keyword.encode(), "|".join(names).encode(), nearest, 64)
+    found = names[text_of(nearest)]
+    raise BadInput(keyword, f'unknown keyword "{keyword}"; the nearest is {found} (festoon.schema() lists them all)')
 
 
 def keyword_of(key: str) -> str:
@@ -111,6 +125,9 @@ class Bead(Parameters):
     _params: Any
     _map: Any = None
     _made: Any = None
+    #: Keys that keywords gave, and those that a call has found from the others.
+    _said: FrozenSet[str] = frozenset()
+    _follows: FrozenSet[str] = frozenset()
 
     # Type checkers take the signatures with all keywords from Parameters.
     if not TYPE_CHECKING:
@@ -119,6 +136,7 @@ class Bead(Parameters):
             self._params = ffi.new("fst_params *", lib.fst_default_params())
             if isinstance(scene, Bead):
                 self._params[0], self._map = scene._params[0], scene._map
+                self._said = scene._said
             elif isinstance(scene, str) and "\n" in scene:
                 data = scene.encode()
                 call(lib.fst_scene_parse, data, len(data), b"scene", self._params)
@@ -129,45 +147,34 @@ class Bead(Parameters):
             self._set(keywords)
 
     def _set(self, keywords: Mapping[str, Any]) -> None:
-        given = {key_of(keyword): value for keyword, value in keywords.items() if value is not None}
+        given = {known_key(keyword): value for keyword, value in keywords.items() if value is not None}
         if len(given) < sum(value is not None for value in keywords.values()):
             raise BadInput("Bead", "a parameter is given twice, by its short keyword and by its long one")
         self._unset([key for key, value in given.items() if value is UNSET])
+        self._said -= given.keys()
         given = {key: value for key, value in given.items() if value is not UNSET}
+        self._said |= given.keys()
         for key, shape in (("magnet.parts", "parts"), ("magnet.file", "grid")):
             if key in given:
                 given.setdefault("magnet.shape", shape)
-        for key, value in given.items():
-            other = lib.fst_param_other_form(key.encode())
-            if other and text_of(other) in given:
-                raise BadInput("Bead", f"{key} and {text_of(other)} are two forms of one quantity: give one")
+        # As in a scene: the magnet's kind says what takes the place of what, and kappa clears a B0 before it.
+        for key in sorted(given, key=lambda key: (key != "magnet.shape", key != "model.kappa")):
             if key == "magnet.parts":
-                self._set_parts(value)
+                self._set_parts(given[key])
             else:
-                call(lib.fst_params_set, self._params, key.encode(), value_text(value, key).encode())
-        if "magnet.checksum" in given:
-            self._params.magnet_map = ffi.NULL
+                call(lib.fst_params_set, self._params, key.encode(), value_text(given[key], key).encode())
+        for one, two in itertools.combinations(given, 2):
+            if lib.fst_params_clash(self._params, one.encode(), two.encode()):
+                raise BadInput("Bead", f"{one} and {two} are two forms of one quantity: give one")
         self._make()
 
     def _unset(self, keys: Iterable[str]) -> None:
         """Take parameters back to what they are where nothing was said of them."""
-        default = lib.fst_default_params()
         for key in keys:
             if key == "magnet.parts":
                 self._params.magnet_part_count = 0
-                continue
-            if key not in PARAMETERS:
-                call(lib.fst_params_set, self._params, key.encode(), b"")  # the sentence names the nearest key
-                raise BadInput(key, "a part's numbers are given together, as magnet__parts")
-            field = key.replace(".", "_")
-            if PARAMETERS[key][0] == "str" and not PARAMETERS[key][1]:
-                setattr(self._params, field, b"")
             else:
-                setattr(self._params, field, getattr(default, field))
-            if key == "model.kappa":
-                self._params.model_kappa_given = 0
-            if key in ("magnet.file", "magnet.checksum"):
-                self._params.magnet_checksum, self._params.magnet_map = b"", ffi.NULL
+                call(lib.fst_params_unset, self._params, key.encode())
 
     def _make(self) -> None:
         """Make the model; a map of the field is read once, and shared by the beads that follow from this one."""
@@ -257,11 +264,44 @@ class Bead(Parameters):
 
     @classmethod
     def load(cls, path: Path) -> "Bead":
-        """Read a YAML scene."""
+        """Read a YAML scene.
+
+        Parameters
+        ----------
+        path
+            A scene.
+
+        Returns
+        -------
+        Bead
+            The bead of the scene.
+
+        Raises
+        ------
+        MissingFile
+            Where the file is not there.
+        BadInput
+            Where it is damaged, or something else.
+        """
         return cls(os.fspath(path).replace("\n", "?"))
 
     def save(self, path: Path, comments: bool = True, overwrite: bool = True) -> None:
-        """Write the bead as a YAML scene, with docs and units as comments."""
+        """Write the bead as a YAML scene, with docs and units as comments.
+
+        Parameters
+        ----------
+        path
+            The file, which is made anew.
+        comments
+            Whether docs and units stand beside the values.
+        overwrite
+            False: a file that is there is left, with an error.
+
+        Raises
+        ------
+        InputOutput
+            Where the file cannot be written.
+        """
         folder = os.path.dirname(os.fsdecode(path))
         params, file = ffi.new("fst_params *", self._params[0]), ffi.string(self._params.magnet_file)
         if folder and file and not os.path.isabs(file):  # a path in a scene begins at the scene's folder
@@ -269,7 +309,23 @@ class Bead(Parameters):
         call(lib.fst_scene_write, path_bytes(path), params, comments, overwrite)
 
     def scene(self, comments: bool = False) -> str:
-        """The bead as YAML text; Bead(text) is the same bead, bit by bit."""
+        """The bead as YAML text; Bead(text) is the same bead, bit by bit.
+
+        Parameters
+        ----------
+        comments
+            Whether docs and units stand beside the values.
+
+        Returns
+        -------
+        str
+            The scene; values have units.
+
+        Raises
+        ------
+        OutOfMemory
+            Where there is no memory for it.
+        """
         return take_text(lib.fst_scene_text(self._params, comments))
 
     if not TYPE_CHECKING:
@@ -277,12 +333,30 @@ class Bead(Parameters):
         def replace(self, **keywords: Any) -> "Bead":
             """The same bead with other values; `UNSET` is for a parameter that is to be as if it had never been given.
 
+            Parameters
+            ----------
+            **keywords
+                Parameters as those of :class:`Bead`.
+
+            Returns
+            -------
+            Bead
+                Another bead; this one stays.
+
+            Raises
+            ------
+            BadInput
+                Where a keyword is unknown or a value is out of range.
+
+            Examples
+            --------
             >>> scaled = Bead(frequency=8, gamma=300).replace(omega=0.2)
             >>> scaled.replace(omega=UNSET, gamma=UNSET) == Bead()
             True
             """
             made = type(self).__new__(type(self))
             made._params, made._map = ffi.new("fst_params *", self._params[0]), self._map
+            made._said = self._said
             made._set(keywords)
             return made
 
@@ -311,36 +385,53 @@ class Bead(Parameters):
 
     @property
     def omega(self) -> float:
-        """The drive, scaled: omega_0/gamma."""
+        """The drive, omega_0/gamma [gamma]."""
         return float(lib.fst_model_groups(self._model).omega)
 
     @property
     def frequency(self) -> float:
-        """The drive in Hz."""
+        """The drive [Hz]."""
         if math.isnan(self._params.drive_omega):
             return float(self._params.drive_frequency)
         return self.omega * self.gamma / (2 * math.pi)
 
     @property
     def kappa(self) -> float:
-        """Magnetic strength mu B0/(m R^2 gamma^2)."""
+        """Magnetic strength mu B0/(m R^2 gamma^2) [1]."""
         return float(lib.fst_model_groups(self._model).kappa)
 
     @property
     def gamma(self) -> float:
-        """The friction rate, and the inverse unit of time, 1/s."""
+        """The friction rate, and the inverse unit of time [1/s]."""
         return float(self._params.friction_gamma)
 
     @property
     def mu(self) -> float:
-        """Coefficient of dry friction."""
+        """Coefficient of dry friction [1]."""
         return float(self._params.friction_mu)
 
     def start_state(self) -> Any:
-        """The state at the start: X Y vX vY nX nY nZ WX WY WZ."""
+        """The state at the start: X Y vX vY nX nY nZ WX WY WZ.
+
+        Returns
+        -------
+        numpy.ndarray
+            Ten numbers, scaled (l, 1/gamma).
+
+        Raises
+        ------
+        BadInput
+            Where the start does not exist, as one that rolls on the axis.
+        """
         state = ffi.new("double[]", lib.FST_STATE_SIZE)
         call(lib.fst_start_state, self._params, self._model, state)
         return np.array(list(state))
+
+    def _text(self, key: str) -> str:
+        """A parameter as a scene would say it; "" where it is not given."""
+        text = ffi.new("char[]", 4096)
+        lib.fst_params_get(self._params, lib.fst_param_find(key.encode()), text, 4096)
+        return text_of(text)
 
     def _given(self) -> Dict[str, str]:
         """The parameters that differ from the default bead's, as text."""
@@ -377,7 +468,7 @@ class Bead(Parameters):
 
     def __reduce__(self) -> Tuple[Any, ...]:
         again = type(self) if self._made is not None else type(self)._unmade_of
-        return again, (self._portable_scene(),)
+        return again, (self._portable_scene(),), {"_said": self._said, "_follows": self._follows}
 
     def __copy__(self) -> "Bead":
         return self
@@ -387,9 +478,11 @@ class Bead(Parameters):
 
     def __repr__(self) -> str:
         words = []
-        for key, text in self._given().items():
-            kind = PARAMETERS[key][0] if key in PARAMETERS else "str"
-            words.append(f"{keyword_of(key)}={text!r}" if kind == "str" else f"{keyword_of(key)}={text}")
+        given = self._given()
+        for key, (kind, _, _) in PARAMETERS.items():
+            text = given.get(key, self._text(key) if key in self._said else "")
+            if text and key not in self._follows:
+                words.append(f"{keyword_of(key)}={text!r}" if kind == "str" else f"{keyword_of(key)}={text}")
         if self._params.magnet_part_count:
             words.append(f"magnet__parts={self.magnet__parts!r}")
         return f"Bead({', '.join(words)})"
@@ -413,6 +506,7 @@ class Bead(Parameters):
             return self
         made = self.replace()
         made._params.run_discard = discard
+        made._follows = frozenset(["run.discard"])
         return made
 
     def run(
@@ -446,9 +540,27 @@ class Bead(Parameters):
             A state of ten numbers instead of start.*.
         ramp
             (FROM, TO): a slow ramp of the drive after the discard, in Hz or with units; the result has `ramp`.
+        ramp_points, ramp_wait, ramp_disturbance
+            Its points; drive periods that the bead is given at each before its means; the disturbance there.
         progress
             True: a bar; or a function of (fraction, what).
 
+        Returns
+        -------
+        Run
+            Its numbers are scaled; `si` and `lab` have them in other units.
+
+        Raises
+        ------
+        BadInput
+            Where an argument is wrong; the sentence says what was expected.
+        StepUnderflow, NotFinite
+            Where the integration fails; the sentence says when and where.
+        Interrupted
+            After Ctrl-C; `partial` is what was done by then.
+
+        Examples
+        --------
         >>> run = Bead().run(periods=60)
         >>> run.regime, run.symmetry
         ('counter-rotating', 'S1')
@@ -469,19 +581,77 @@ class Bead(Parameters):
         )
 
     def sweep(self, **keywords: Any) -> "Sweep":
-        """Runs over a grid of parameters: :func:`festoon.sweep` with this bead."""
+        """Runs over a grid of parameters: :func:`festoon.sweep` with this bead.
+
+        Parameters
+        ----------
+        **keywords
+            Those of :func:`festoon.sweep`.
+
+        Returns
+        -------
+        Sweep
+            A result for each point of the grid.
+
+        Raises
+        ------
+        BadInput
+            Where an argument is wrong; the sentence says what was expected.
+        Interrupted
+            After Ctrl-C; `partial` is what was done by then.
+        """
         from .sweeping import sweep
 
         return sweep(self, **keywords)
 
     def orbit(self, *, festoons: Optional[float] = None, progress: Progress = None) -> "Orbit":
-        """The stable periodic orbit to which the start leads, or the one with so many festoons: an `Orbit`."""
+        """The stable periodic orbit to which the start leads, or the one with so many festoons: an `Orbit`.
+
+        Parameters
+        ----------
+        festoons
+            Look for the drive at which the pattern closes with so many; without it the orbit at the bead's drive.
+        progress
+            True: a bar; or a function of (fraction, what).
+
+        Returns
+        -------
+        Orbit
+            Its numbers are those of a run over one period, scaled.
+
+        Raises
+        ------
+        NoConvergence
+            Where there is no stable orbit; the sentence says what became of the search.
+        BadInput
+            Where an argument is wrong; the sentence says what was expected.
+        Interrupted
+            After Ctrl-C.
+        """
         from . import orbits
 
         return orbits.orbit(self._asked(), festoons, progress)
 
     def locked(self, *, progress: Progress = None) -> "LockedStates":
-        """Every locked state at this drive: a `LockedStates`."""
+        """Every locked state at this drive: a `LockedStates`.
+
+        Parameters
+        ----------
+        progress
+            True: a bar; or a function of (fraction, what).
+
+        Returns
+        -------
+        LockedStates
+            All of them, stable ones first.
+
+        Raises
+        ------
+        BadInput
+            Where an argument is wrong; the sentence says what was expected.
+        Interrupted
+            After Ctrl-C.
+        """
         from . import orbits
 
         return orbits.locked(self._asked(), progress)
@@ -493,17 +663,51 @@ class Bead(Parameters):
         ----------
         kind
             counter (the counter-rotating family), locked (all families of equilibria), all.
+        progress
+            True: a bar; or a function of (fraction, what).
+        **keywords
+            The ranges of one parameter or of two, and the options below.
         tolerance, step, follow
             Of the integration (1e-12); longest step along the curve (0.5); switch branches where they cross.
         special
             With a second parameter, `kappa=(1, 2)`: the type of special point that is followed over both.
+
+        Returns
+        -------
+        Branch
+            Its points, special points and ends.
+
+        Raises
+        ------
+        BadInput
+            Where an argument is wrong; the sentence says what was expected.
+        Interrupted
+            After Ctrl-C; `partial` is what was done by then.
         """
         from . import orbits
 
         return orbits.branch(self._asked(), kind, progress, keywords)
 
     def lyapunov(self, *, progress: Progress = None) -> "Lyapunov":
-        """The spectrum of Lyapunov exponents: a `Lyapunov`."""
+        """The spectrum of Lyapunov exponents: a `Lyapunov`.
+
+        Parameters
+        ----------
+        progress
+            True: a bar; or a function of (fraction, what).
+
+        Returns
+        -------
+        Lyapunov
+            Exponents in gamma, each with an error.
+
+        Raises
+        ------
+        BadInput
+            Where an argument is wrong; the sentence says what was expected.
+        Interrupted
+            After Ctrl-C.
+        """
         from . import orbits
 
         return orbits.lyapunov(self._asked(), progress)
@@ -514,6 +718,29 @@ class Bead(Parameters):
         `x` and `y` broadcast; they are in l and B in B0, or in m and T with ``units="si"``.  A text may carry a
         unit ("10 mm").  `height` is another one over the magnet's mid-plane than that of the bead's centre.
 
+        Parameters
+        ----------
+        x, y
+            Places in the frame of the magnet, which broadcast.
+        height
+            Over the mid-plane, in l or m, or a text with a unit.
+        units
+            "scaled" or "si".
+
+        Returns
+        -------
+        tuple of numpy.ndarray
+            B of the shape (..., 3) and G of the shape (..., 3, 3), in B0 and B0/l, or T and T/m.
+
+        Raises
+        ------
+        BadInput
+            Where units are unknown, or SI units do not follow from the parameters.
+        Interrupted
+            After Ctrl-C.
+
+        Examples
+        --------
         >>> B, G = Bead().field([0.0, 0.5], 0.0)
         >>> B.shape, G.shape
         ((2, 3), (2, 3, 3))
@@ -522,8 +749,93 @@ class Bead(Parameters):
 
         return fields.field(self, x, y, height, units)
 
+    def rhs(self, states: Any) -> Any:
+        """The equations of motion: the derivatives of states by time, in the turning frame at the bead's drive.
+
+        Parameters
+        ----------
+        states
+            An array of the shape (..., 10), scaled: X Y vX vY nX nY nZ WX WY WZ.
+
+        Returns
+        -------
+        numpy.ndarray
+            The derivatives, of the same shape, scaled (times in 1/gamma).
+
+        Raises
+        ------
+        BadInput
+            Where the shape is another one, or a number is not finite.
+        """
+        from . import fields
+
+        return fields.of_states(self, states, "rhs", (lib.FST_STATE_SIZE,))
+
+    def jacobian(self, states: Any) -> Any:
+        """The exact derivatives of :meth:`rhs` by the state.
+
+        Parameters
+        ----------
+        states
+            An array of the shape (..., 10), scaled: X Y vX vY nX nY nZ WX WY WZ.
+
+        Returns
+        -------
+        numpy.ndarray
+            Of the shape (..., 10, 10): J[..., i, j] is the derivative of the i-th component of rhs by the j-th of the state.
+
+        Raises
+        ------
+        BadInput
+            Where the shape is another one, or a number is not finite.
+        """
+        from . import fields
+
+        return fields.of_states(self, states, "jacobian", (lib.FST_STATE_SIZE, lib.FST_STATE_SIZE))
+
+    def observe(self, states: Any) -> Any:
+        """What can be said of states: distance, moment and field in local components, slip, load, energy, powers.
+
+        Parameters
+        ----------
+        states
+            An array of the shape (..., 10), scaled: X Y vX vY nX nY nZ WX WY WZ.
+
+        Returns
+        -------
+        numpy.recarray
+            Of the shape (...), scaled: r, n and b in (r, alpha, z), b_norm, angle (rad), slip, slip_norm, spin, load, energy,
+            friction_power, friction, friction_use, sticks, drive_power, ...
+
+        Raises
+        ------
+        BadInput
+            Where the shape is another one, or a number is not finite.
+        """
+        from . import fields
+
+        return fields.observe(self, states)
+
     def flow(self, state: Any = None, **options: Any) -> "Flow":
-        """A trajectory that is advanced step by step: a `Flow`."""
+        """A trajectory that is advanced step by step: a `Flow`.
+
+        Parameters
+        ----------
+        state
+            Ten numbers, scaled; by default that of start.*.
+        **options
+            Those of :class:`Flow`.
+
+        Returns
+        -------
+        Flow
+            At t = 0.
+
+        Raises
+        ------
+        BadInput
+            Where an argument is wrong; the sentence says what was expected.
+        """
         from .flows import Flow
 
         return Flow(self, state, **options)
@@ -531,26 +843,96 @@ class Bead(Parameters):
     # ------------------------------------------------------------------ pictures
 
     def movie(self, path: Path, *, periods: float = 20.0, progress: Progress = None, **options: Any) -> None:
-        """Run the bead and make a film of the first periods after run.discard: see `Trajectory.movie`."""
+        """Run the bead and make a film of the first periods after run.discard: see `Trajectory.movie`.
+
+        Parameters
+        ----------
+        path
+            .mp4, .gif or a folder of PNG frames.
+        periods
+            How many drive periods are shown.
+        progress
+            True: a bar; or a function of (fraction, what).
+        **options
+            Those of :meth:`Trajectory.movie`.
+
+        Raises
+        ------
+        BadInput
+            Where an argument is wrong; the sentence says what was expected.
+        Unavailable
+            Where ffmpeg or cairo is missing.
+        Interrupted
+            After Ctrl-C.
+        """
         begin = float(lib.fst_run_discard(self._params))
         bead = self.replace(run__periods=begin + periods)
         made = bead.run(trajectory=True, sample_from=begin, progress=progress)
         made.trajectory.movie(path, progress=progress, **options)
 
     def plot_field(self, **options: Any) -> Any:
-        """Draw the map of the magnet's field with matplotlib; returns its Axes: see `festoon.plots.field`."""
+        """Draw the map of the magnet's field with matplotlib; returns its Axes: see `festoon.plots.field`.
+
+        Parameters
+        ----------
+        **options
+            Those of the function that is named above.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The Axes with the picture, in which all can still be changed.
+
+        Raises
+        ------
+        BadInput
+            Where a name is unknown; the sentence has the nearest.
+        Unavailable
+            Where matplotlib is missing.
+        """
         from . import plots
 
         return plots.field(self, **options)
 
     def figure(self, path: Path, units: str = "given") -> None:
-        """The program's figure of the magnet's field on the plane of the bead's centre: .svg, .pdf or .png."""
+        """The program's figure of the magnet's field on the plane of the bead's centre: .svg, .pdf or .png.
+
+        Parameters
+        ----------
+        path
+            The picture.
+        units
+            "given", "lab", "scaled" or "si".
+
+        Raises
+        ------
+        BadInput
+            Where the ending of the path, or an option, is wrong.
+        Unavailable
+            Where gnuplot or the ending's converter is missing.
+        """
         from . import figures
 
         figures.field(self, path, units)
 
     def lab(self, height: int = 720) -> "Lab":
-        """The browser page with this bead, shown in a notebook."""
+        """The browser page with this bead, shown in a notebook.
+
+        Parameters
+        ----------
+        height
+            Of the frame in the notebook, pixels.
+
+        Returns
+        -------
+        Lab
+            Shows itself in a notebook; `open()` opens a browser.
+
+        Raises
+        ------
+        Unavailable
+            Where the page was not built.
+        """
         from .lab import Lab
 
         return Lab(self, height)

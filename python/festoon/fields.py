@@ -1,4 +1,4 @@
-"""The magnet's field at many points."""
+"""The magnet's field at many points, and the equations of motion at many states."""
 
 import math
 from typing import Any, Tuple
@@ -6,7 +6,7 @@ from typing import Any, Tuple
 import numpy as np
 
 from ._errors import BadInput, Interrupted
-from ._native import ffi, lib
+from ._native import dtype_of, ffi, lib
 from ._quantities import quantity
 from .bead import Bead
 
@@ -21,6 +21,47 @@ def _scaled(value: Any, units: str, length: float) -> Any:
         return np.float64(quantity(value, lib.FST_UNIT_LENGTH, "field") / length)
     numbers = np.asarray(value, float)
     return numbers / length if units == "si" else numbers
+
+
+def _in_pieces(function: Any, bead: Bead, count: int, arrays: Any) -> None:
+    """A function of the library over arrays, given with their numbers to a point; between pieces Python obeys Ctrl-C."""
+    places = [(ffi.from_buffer("double[]", values), width) for values, width in arrays]
+    try:
+        for i in range(0, count, PIECE):
+            function(bead._model, min(PIECE, count - i), *[values + width * i for values, width in places])
+    except KeyboardInterrupt:
+        raise Interrupted() from None
+
+
+def _states(states: Any, where: str) -> Any:
+    size = lib.FST_STATE_SIZE
+    given = np.ascontiguousarray(states, float)
+    if given.ndim < 1 or given.shape[-1] != size:
+        raise BadInput(where, f"a state has {size} numbers: an array of states has the shape (..., {size})")
+    if not np.isfinite(given).all():
+        raise BadInput(where, "a number of a state is not finite")
+    return given
+
+
+def of_states(bead: Bead, states: Any, name: str, shape: Tuple[int, ...]) -> Any:
+    """See Bead.rhs() and Bead.jacobian()."""
+    given = _states(states, name)
+    made = np.empty(given.shape[:-1] + shape)
+    if made.size:
+        size = given.shape[-1]
+        _in_pieces(getattr(lib, f"pyf_{name}"), bead, given.size // size, [(given, size), (made, math.prod(shape))])
+    return made
+
+
+def observe(bead: Bead, states: Any) -> Any:
+    """See Bead.observe()."""
+    given = _states(states, "observe")
+    made = np.zeros(given.shape[:-1], dtype_of("fst_observation"))
+    if made.size:
+        count = given.size // given.shape[-1]
+        rows = ffi.from_buffer("fst_observation[]", made)
+        lib.pyf_observe(bead._model, count, ffi.from_buffer("double[]", given), rows)
+    return made.view(np.recarray)
 
 
 def field(bead: Bead, x: Any, y: Any, height: Any, units: str) -> Tuple[Any, Any]:
@@ -38,13 +79,7 @@ def field(bead: Bead, x: Any, y: Any, height: Any, units: str) -> Tuple[Any, Any
     xs, ys = np.ascontiguousarray(xs).ravel(), np.ascontiguousarray(ys).ravel()
     b, grad = np.empty((*shape, 3)), np.empty((*shape, 3, 3))
     if xs.size:
-        places = [ffi.from_buffer("double[]", values) for values in (xs, ys, b, grad)]
-        try:
-            for i in range(0, xs.size, PIECE):  # between pieces Python obeys Ctrl-C
-                here = [values + width * i for values, width in zip(places, (1, 1, 3, 9))]
-                lib.pyf_field(bead._model, min(PIECE, xs.size - i), *here)
-        except KeyboardInterrupt:
-            raise Interrupted() from None
+        _in_pieces(lib.pyf_field, bead, xs.size, [(xs, 1), (ys, 1), (b, 3), (grad, 9)])
     if units == "si":
         b *= tesla
         grad *= tesla / length

@@ -4,19 +4,14 @@ import os
 from typing import Any, Dict, Iterable, List, Optional, Tuple, Union
 
 from ._errors import BadInput
-from ._native import call, ffi, lib, options_of, path_bytes, strings
+from ._native import call, ffi, lib, options_of, path_bytes, places_of, strings
 from ._quantities import units_of
 
 Path = Union[str, "os.PathLike[str]"]
 
-KINDS: Dict[str, int] = {
-    "path": lib.FST_FIGURE_PATH,
-    "local-n": lib.FST_FIGURE_LOCAL_N,
-    "radius-field": lib.FST_FIGURE_RADIUS_FIELD,
-    "time": lib.FST_FIGURE_TIME,
-    "section": lib.FST_FIGURE_SECTION,
-    "ramp": lib.FST_FIGURE_RAMP,
-}
+__all__ = ["branch", "field", "points", "sweep", "trajectory"]
+
+KINDS = places_of(lib.pyf_figures)
 
 
 def set_options(options: Any, given: Dict[str, Any], where: str) -> List[Any]:
@@ -46,15 +41,36 @@ def set_options(options: Any, given: Dict[str, Any], where: str) -> List[Any]:
 def trajectory(
     samples: Any, path: Path, kind: str, *, keys: Iterable[str] = (), **given: Any
 ) -> None:
-    """See Trajectory.figure()."""
+    """See Trajectory.figure().
+
+    Parameters
+    ----------
+    samples
+        A `Trajectory`.
+    path
+        The picture.
+    kind
+        path, local-n, radius-field, time, section or ramp.
+    keys
+        Columns, of the kinds time and section.
+    **given
+        Options of `Trajectory.figure`.
+
+    Raises
+    ------
+    BadInput
+        Where the ending of the path, or an option, is wrong.
+    Unavailable
+        Where gnuplot or the ending's converter is missing.
+    """
     options = options_of(lib.fst_default_figure_options())
     if kind not in KINDS:
-        raise BadInput("fst_figure_options.kind", f'unknown kind "{kind}"; there are {", ".join(KINDS)}')
+        raise BadInput("kind", f'unknown kind "{kind}"; there are {", ".join(KINDS)}')
     options.kind = KINDS[kind]
     kept = set_options(options, given, "Trajectory.figure")
     words = list(keys)
     if len(words) > lib.FST_FIGURE_KEYS:
-        raise BadInput("fst_figure_options.keys", f"a figure shows at most {lib.FST_FIGURE_KEYS} columns")
+        raise BadInput("keys", f"a figure shows at most {lib.FST_FIGURE_KEYS} columns")
     for i, word in enumerate(words):
         kept.append(ffi.new("char[]", word.encode()))
         options.keys[i] = kept[-1]
@@ -66,7 +82,28 @@ def trajectory(
 def branch(
     branches: Any, path: Path, observable: Optional[str], *, units: str = "given", dots: Iterable[Tuple[float, float]] = ()
 ) -> None:
-    """See Branch.figure(); `dots` are pairs of abscissa and ordinate."""
+    """See Branch.figure(); `dots` are pairs of abscissa and ordinate.
+
+    Parameters
+    ----------
+    branches
+        A `Branch`.
+    path
+        The picture.
+    observable
+        What is drawn; None: mean_r.
+    units
+        "given", "lab", "scaled" or "si".
+    dots
+        Pairs of abscissa and ordinate.
+
+    Raises
+    ------
+    BadInput
+        Where the ending of the path, or an option, is wrong.
+    Unavailable
+        Where gnuplot or the ending's converter is missing.
+    """
     pairs = [float(number) for pair in dots for number in pair]
     name = observable or ("second" if branches.second_key else "mean_r")
     call(
@@ -81,18 +118,78 @@ def branch(
 
 
 def field(bead: Any, path: Path, units: str) -> None:
-    """See Bead.figure()."""
+    """See Bead.figure().
+
+    Parameters
+    ----------
+    bead
+        A `Bead`.
+    path
+        The picture.
+    units
+        "given", "lab", "scaled" or "si".
+
+    Raises
+    ------
+    BadInput
+        Where the ending of the path, or an option, is wrong.
+    Unavailable
+        Where gnuplot or the ending's converter is missing.
+    """
     call(lib.fst_figure_field, bead._params, units_of(units), path_bytes(path))
 
 
 def sweep(database: Path, path: Path, keys: Iterable[str] = (), units: str = "given") -> None:
-    """Draw a sweep's database: curves of the keys over one axis, a map of one key over two."""
+    """Draw a sweep's database: curves of the keys over one axis, a map of one key over two.
+
+    Parameters
+    ----------
+    database
+        The sweep.
+    path
+        The picture.
+    keys
+        What is drawn; none: the program chooses.
+    units
+        "given", "lab", "scaled" or "si".
+
+    Raises
+    ------
+    MissingFile
+        Where the file is not there.
+    BadInput
+        Where it is damaged, or something else.
+    Unavailable
+        Where gnuplot or the ending's converter is missing.
+    """
     words, kept = strings(list(keys))
     call(lib.fst_figure_sweep, path_bytes(database), words, len(kept), units_of(units), path_bytes(path))
 
 
 def points(results: Path, measured: Path, path: Path) -> Tuple[float, int, int]:
-    """Lay measured points over a sweep or a branch over the drive: (chi^2, numbers counted, numbers in all)."""
+    """Lay measured points over a sweep or a branch over the drive: (chi^2, numbers counted, numbers in all).
+
+    Parameters
+    ----------
+    results
+        A sweep or a branch over the drive.
+    measured
+        A table of points.
+    path
+        The picture.
+
+    Returns
+    -------
+    tuple
+        chi^2, the numbers that count in it, and all numbers.
+
+    Raises
+    ------
+    MissingFile
+        Where the file is not there.
+    BadInput
+        Where it is damaged, or something else.
+    """
     fit = ffi.new("fst_points_fit *")
     call(lib.fst_figure_points, path_bytes(results), path_bytes(measured), path_bytes(path), fit)
     return float(fit.chi2), int(fit.counted), int(fit.all)

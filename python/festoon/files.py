@@ -2,11 +2,11 @@
 
 import json
 import os
+import subprocess
 from typing import Any, Dict, Iterable, List, Optional, Union
 
-from ._errors import BadInput
-from ._native import Watch, call, ffi, lib, options_of, path_bytes, strings, take_text
-from ._progress import Progress
+from ._errors import BadInput, FestoonError, Unavailable
+from ._native import call, ffi, lib, path_bytes, strings, take_text
 from ._quantities import units_of
 from .orbits import read_branch
 from .sweeps import read_sweep
@@ -18,7 +18,26 @@ Path = Union[str, "os.PathLike[str]"]
 def export(
     database: Path, path: Path, keys: Iterable[str] = (), units: str = "scaled"
 ) -> None:
-    """Write the rows of a sweep's database as .csv, .json or .h5; with `keys` only these, as .csv with units."""
+    """Write the rows of a sweep's database as .csv, .json or .h5; with `keys` only these, as .csv with units.
+
+    Parameters
+    ----------
+    database
+        The sweep.
+    path
+        The table.
+    keys
+        Columns; none: all.
+    units
+        "scaled", "lab" or "si".
+
+    Raises
+    ------
+    MissingFile
+        Where the file is not there.
+    BadInput
+        Where it is damaged, or something else.
+    """
     name = os.fspath(path)
     endings = {".csv": lib.FST_EXPORT_CSV, ".json": lib.FST_EXPORT_JSON, ".h5": lib.FST_EXPORT_HDF5}
     words, kept = strings(list(keys))
@@ -33,31 +52,101 @@ def export(
 
 
 def schema() -> List[Dict[str, Any]]:
-    """The table of all parameters: key, unit, default, min, max, doc."""
+    """The table of all parameters: key, unit, default, min, max, doc.
+
+    Returns
+    -------
+    list of dict
+        One for each parameter.
+
+    Raises
+    ------
+    OutOfMemory
+        Where there is no memory for it.
+    """
     rows: List[Dict[str, Any]] = json.loads(take_text(lib.fst_schema_json()))
     return rows
 
 
+def _paper_program() -> List[str]:
+    """The words that start `festoon paper`: its program beside the module or in the build tree, or the command."""
+    here = os.path.dirname(os.path.abspath(__file__))
+    for folder in (here, os.path.join(here, "..", "..")):
+        if os.access(os.path.join(folder, "festoon-paper"), os.X_OK):
+            return [os.path.join(folder, "festoon-paper")]
+    return ["festoon", "paper"]
+
+
 def paper(
-    directory: Path, *, reduced: bool = False, films: bool = False, only: Optional[str] = None, progress: Progress = None
+    directory: Path, *, reduced: bool = False, films: bool = False, only: Optional[str] = None, progress: bool = False
 ) -> str:
     """Compute what the paper shows, with figures and a report in `directory`; returns the summary.
 
-    With `only`, the id of a statement, nothing is written and the statement comes back as JSON.
+    With `only`, the id of a statement, nothing is written and the statement comes back as JSON.  The program
+    `festoon paper` does it, which shows its progress on a terminal.
+
+    Parameters
+    ----------
+    directory
+        Where all goes.
+    reduced
+        Fewer and shorter runs.
+    films
+        Films too.
+    only
+        The id of one statement.
+    progress
+        Whether the program shows it on the terminal.
+
+    Returns
+    -------
+    str
+        The summary, or the statement as JSON.
+
+    Raises
+    ------
+    BadInput
+        Where there is no such statement.
+    Unavailable
+        Where the program is missing.
     """
-    options = options_of(lib.fst_default_paper_options())
-    summary, word = ffi.new("char **"), ffi.new("char[]", (only or "").encode())
-    options.reduced, options.films, options.summary = reduced, films, summary
-    if only is not None:
-        options.only = word
-    with Watch(progress, title="paper") as watch:
-        options.progress = watch.told
-        watch.call(lib.fst_paper, path_bytes(directory), options)
-    return take_text(summary[0])
+    words = _paper_program() + ["--only", only] if only is not None else [*_paper_program(), "-o", os.fspath(directory)]
+    words += ["--reduced"] * reduced + ["--films"] * (films and only is None)
+    try:
+        done = subprocess.run(words, stdout=subprocess.PIPE, stderr=None if progress else subprocess.PIPE, text=True, check=False)
+    except FileNotFoundError as missing:
+        raise Unavailable("paper", "the program festoon, which does this, is not on PATH") from missing
+    if done.returncode != 0:
+        kind = BadInput if done.returncode == 2 else FestoonError
+        told = (done.stderr or "festoon paper failed").strip().removeprefix("festoon: ")
+        option, colon, sentence = told.partition(": ")
+        names = bool(colon) and option.startswith("--")
+        raise kind(option[2:] if names else "paper", sentence if names else told)
+    return done.stdout
 
 
 def read(path: Path) -> Any:
-    """Read what the program or this module wrote: a trajectory (.h5, .csv), a sweep (.db) or a branch (.json)."""
+    """Read what the program or this module wrote: a trajectory (.h5, .csv), a sweep (.db) or a branch (.json).
+
+    Parameters
+    ----------
+    path
+        The file, in any of its formats.
+
+    Returns
+    -------
+    Trajectory, Sweep or Branch
+        Scaled, as what was written.
+
+    Raises
+    ------
+    MissingFile
+        Where the file is not there.
+    BadInput
+        Where it is damaged, or something else.
+    Interrupted
+        After Ctrl-C.
+    """
     name = os.fspath(path)
     if lib.fst_is_sweep(path_bytes(path)) or name.endswith(".db"):
         return read_sweep(path)

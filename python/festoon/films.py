@@ -54,6 +54,31 @@ def track(film: Path, *, progress: Progress = None, **given: Any) -> Any:
 
     Options: fps, scale ("bead 5 mm", "plate 460 mm", "X1,Y1:X2,Y2=50mm"), distance, and the files csv, overlay,
     picture.
+
+    Parameters
+    ----------
+    film
+        The file.
+    progress
+        True: a bar; or a function of (fraction, what).
+    **given
+        The options above.
+
+    Returns
+    -------
+    Track
+        Its lengths are in mm where there is a scale.
+
+    Raises
+    ------
+    MissingFile
+        Where the file is not there.
+    BadInput
+        Where it is damaged, or something else.
+    Unavailable
+        Where ffmpeg is missing.
+    Interrupted
+        After Ctrl-C.
     """
     from .measuring import Track
 
@@ -65,6 +90,6 @@ def track(film: Path, *, progress: Progress = None, **given: Any) -> Any:
         options.progress = watch.told
         watch.call(lib.fst_film_track, path_bytes(film), options, found, report)
     del kept
-    made = Track(found)
+    made = Track._of(found)
     made.report = _facts(report)
     return made

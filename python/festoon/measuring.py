@@ -1,5 +1,6 @@
 """Tracks of filmed beads, what is measured of them, and the parameters that follow."""
 
+import contextlib
 import json
 import math
 import os
@@ -8,10 +9,12 @@ from typing import Any, Dict, Iterable, List, Mapping, Optional, Tuple, Union
 import numpy as np
 
 from ._errors import BadInput
+from ._given import as_file, is_path
 from ._native import (
     Watch,
     call,
     ffi,
+    lent,
     lib,
     options_of,
     owned_array,
@@ -24,7 +27,7 @@ from ._pickled import Told, image_of, same, struct_of
 from ._progress import Progress
 from ._quantities import quantity
 from ._tables import MEASURED, MeasuredNumbers
-from .bead import Bead, key_of
+from .bead import Bead, key_of, known_key
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -46,26 +49,51 @@ def _struct_of(columns: Mapping[str, Any], length_unit: str, fps: float, steady:
 def _track_again(
     columns: Mapping[str, Any], length_unit: str, fps: float, steady: bool, understood: str, report: Any
 ) -> "Track":
-    made = Track(_struct_of(columns, length_unit, fps, steady), understood)
+    made = Track._of(_struct_of(columns, length_unit, fps, steady), understood)
     made.report = report
     return made
 
 
 class Track:
-    """Where a filmed bead was, frame by frame; its arrays lie over the library's memory."""
+    """Where a filmed bead was, frame by frame; its arrays lie over the library's memory.
+
+    Parameters
+    ----------
+    data
+        A data frame, a dictionary or a structured array with columns as a file has them, or an array of t (s), x, y.
+    unit
+        Of x and y, where the names of columns have none; of arrays "mm" by default.
+    **reading
+        Further keywords of :func:`read_track`: fps, scale, ...
+
+    Raises
+    ------
+    BadInput
+        Where the data are no track; `where` counts their rows as lines of a table.
+    """
 
     #: What is known of the film that was tracked.
     report: Optional[Dict[str, Any]]
 
-    def __init__(self, track: Any, understood: str = "") -> None:
-        self._track = track
-        self.report = None
-        #: How the file was understood: format, clock, unit, where y points.
-        self.understood = understood
-        self.length_unit = text_of(track.length_unit)
+    #: How the file was understood: format, clock, unit, where y points.
+    understood: str
+    length_unit: str
+    _track: Any
 
-    def _column(self, name: str, dtype: str) -> Any:
-        return owned_array(getattr(self._track, name), self._track.rows, dtype, self._track)
+    def __init__(self, data: Any, *, unit: Optional[str] = None, **reading: Any) -> None:
+        unit = unit if unit or not hasattr(data, "shape") or hasattr(data, "columns") else "mm"
+        with as_file(data, ("t", "x", "y"), "data", unit) as path:
+            self.__dict__.update(read_track(path, **reading).__dict__)
+
+    @classmethod
+    def _of(cls, track: Any, understood: str = "") -> "Track":
+        made = cls.__new__(cls)
+        made._track, made.report, made.understood = track, None, understood
+        made.length_unit = text_of(track.length_unit)
+        return made
+
+    def _column(self, name: str, dtype: str, writable: bool = False) -> Any:
+        return owned_array(getattr(self._track, name), self._track.rows, dtype, self._track, writable)
 
     @property
     def frame(self) -> Any:
@@ -94,7 +122,7 @@ class Track:
 
     @property
     def fps(self) -> float:
-        """Frames a second."""
+        """Frames a second [Hz]."""
         return float(self._track.fps)
 
     def __len__(self) -> int:
@@ -110,8 +138,8 @@ class Track:
 
     def _take(self, copy: Any, columns: Mapping[str, Any]) -> None:
         """What a call has changed of a copy; the arrays of this track stay where they are."""
-        for name in ("t", "flag"):
-            getattr(self, name)[:] = columns[name]
+        for name, dtype in (("t", "f8"), ("flag", "u1")):
+            self._column(name, dtype, writable=True)[:] = columns[name]
         self._track.fps, self._track.steady = copy.fps, copy.steady
 
     def __reduce__(self) -> Tuple[Any, ...]:
@@ -130,7 +158,18 @@ class Track:
     __hash__ = None  # type: ignore[assignment]  # measuring a track may reject rows of it
 
     def save(self, path: Path) -> None:
-        """Write the track as festoon's CSV."""
+        """Write the track as festoon's CSV.
+
+        Parameters
+        ----------
+        path
+            The file, .csv.
+
+        Raises
+        ------
+        InputOutput
+            Where the file cannot be written.
+        """
         call(lib.fst_track_write, path_bytes(path), self._track)
 
     def __repr__(self) -> str:
@@ -145,7 +184,35 @@ def read_track(
     fps: Union[None, float, str] = None,
     scale: Union[None, float, str] = None,
 ) -> Track:
-    """Read the track of a bead in any of the formats of `festoon measure`; `scale` is the length of one unit."""
+    """Read the track of a bead in any of the formats of `festoon measure`; `scale` is the length of one unit.
+
+    Parameters
+    ----------
+    path
+        The file.
+    format
+        Where the file does not tell itself which one it is.
+    name
+        Of the track, in a file of several.
+    fps
+        Frames a second, Hz.
+    scale
+        The length of one unit of the file, m, or a text with a unit.
+
+    Returns
+    -------
+    Track
+        Its lengths are in `length_unit`.
+
+    Raises
+    ------
+    MissingFile
+        Where the file is not there.
+    BadInput
+        Where it is damaged, or something else.
+    Interrupted
+        After Ctrl-C.
+    """
     options = options_of(lib.fst_default_track_options())
     kept = []
     for field, text in (("format", format), ("name", name)):
@@ -160,7 +227,7 @@ def read_track(
     understood = ffi.new("char **")
     with Watch(None) as watch:
         watch.call_apart(lib.fst_track_read, path_bytes(path), options, track, understood, keeping=kept)
-    return Track(track, take_text(understood[0]) if understood[0] else "")
+    return Track._of(track, take_text(understood[0]) if understood[0] else "")
 
 
 class Measurement(Told, MeasuredNumbers):
@@ -172,7 +239,7 @@ class Measurement(Told, MeasuredNumbers):
         #: The centre of the path, in the axes of the file.
         self.centre = tuple(found.centre)
         self.frames, self.lost = int(found.frames), int(found.lost)
-        self.motion = ["turning", "locked", "unknown"][found.motion]
+        self.motion = text_of(lib.fst_motion_name(found.motion))
         self.warnings = [text_of(found.warnings[i]) for i in range(found.warning_count)]
 
     def _number(self, name: str) -> float:
@@ -188,18 +255,66 @@ class Measurement(Told, MeasuredNumbers):
         return _measurement_again, (self.track, image_of(self._found))
 
     def to_dict(self) -> Dict[str, Any]:
-        """What `festoon measure --json` prints."""
+        """What `festoon measure --json` prints.
+
+        Returns
+        -------
+        dict
+            Keys and numbers as the program prints them; None where a number is undefined.
+
+        Raises
+        ------
+        OutOfMemory
+            Where there is no memory for it.
+        """
         text: Dict[str, Any] = json.loads(take_text(lib.fst_measurement_json(self._found)))
         return text
 
     def plot(self, kind: str = "path", **options: Any) -> Any:
-        """Draw the track with matplotlib; returns its Axes: see `festoon.plots.measurement`."""
+        """Draw the track with matplotlib; returns its Axes: see `festoon.plots.measurement`.
+
+        Parameters
+        ----------
+        kind
+            "path", "magnet" or "radius".
+        **options
+            Those of the function that is named above.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The Axes with the picture, in which all can still be changed.
+
+        Raises
+        ------
+        BadInput
+            Where a name is unknown; the sentence has the nearest.
+        Unavailable
+            Where matplotlib is missing.
+        """
         from . import plots
 
         return plots.measurement(self, kind, **options)
 
     def figure(self, path: Path, compare: Optional[Bead] = None, progress: Progress = None) -> None:
-        """The program's figure of the track, with a bead's path laid over it."""
+        """The program's figure of the track, with a bead's path laid over it.
+
+        Parameters
+        ----------
+        path
+            The picture.
+        compare
+            A bead, whose path is laid over it.
+        progress
+            True: a bar; or a function of (fraction, what).
+
+        Raises
+        ------
+        BadInput
+            Where the ending of the path, or an option, is wrong.
+        Unavailable
+            Where gnuplot or the ending's converter is missing.
+        """
         with Watch(progress, title="figure") as watch:
             watch.call(
                 lib.fst_figure_measurement,
@@ -227,7 +342,7 @@ def _measurement_again(track: Track, image: Any) -> Measurement:
 
 
 def measure(
-    track: Union[Track, Path],
+    track: Any,
     *,
     drive: Union[None, float, str] = None,
     exposure: Union[None, float, str] = None,
@@ -238,9 +353,36 @@ def measure(
 
     `drive` is in Hz or with a unit, negative where the magnet turns clockwise; `exposure` in s.  Further keywords
     are those of :func:`read_track`.
+
+    Parameters
+    ----------
+    track
+        A `Track`, a file of :func:`read_track`, or data as :class:`Track` takes them.
+    drive
+        Of the magnet, Hz; negative: clockwise.
+    exposure
+        Of a frame, s.
+    progress
+        True: a bar; or a function of (fraction, what).
+    **reading
+        Further keywords of :func:`read_track` or :class:`Track`.
+
+    Returns
+    -------
+    Measurement
+        Lengths in the track's unit, frequencies in Hz.
+
+    Raises
+    ------
+    MissingFile
+        Where the file is not there.
+    BadInput
+        Where it is damaged, or something else.
+    Interrupted
+        After Ctrl-C.
     """
     if not isinstance(track, Track):
-        track = read_track(track, **reading)
+        track = read_track(track, **reading) if is_path(track) else Track(track, **reading)
     elif reading:
         raise TypeError("format, name, fps and scale belong to the reading of a file")
     options = options_of(lib.fst_default_measure_options())
@@ -276,7 +418,28 @@ def save_points(
     """Write measured tracks as a table of points, which :func:`fit` reads: a row each.
 
     `drives` are for tracks that do not tell the drive themselves.
+
+    Parameters
+    ----------
+    path
+        The file, .csv.
+    measurements
+        Those that become rows.
+    drives
+        Hz, one for each.
+
+    Raises
+    ------
+    BadInput
+        Where a track has no scale, or no drive is known.
+    InputOutput
+        Where the file cannot be written.
     """
+    call(lib.fst_points_write, path_bytes(path), _points_measured(measurements, drives))
+
+
+def _points_measured(measurements: Iterable[Measurement], drives: Optional[Iterable[Union[float, str]]]) -> Any:
+    """A table of points: a row of each measured track."""
     measured = list(measurements)
     given: List[Any] = [math.nan] * len(measured) if drives is None else list(drives)
     if len(given) != len(measured):
@@ -286,7 +449,7 @@ def save_points(
     for i, (one, drive) in enumerate(zip(measured, given)):
         call(lib.fst_point_of, one._found, quantity(drive, lib.FST_UNIT_FREQUENCY, "drives"), ffi.addressof(rows, i))
     points.rows, points.count = rows, len(measured)
-    call(lib.fst_points_write, path_bytes(path), points)
+    return ffi.gc(points, lambda _, kept=(points, rows): None)
 
 
 # ---------------------------------------------------------------------------------------- fits
@@ -323,9 +486,8 @@ class Fit(Told):
         self.bead = Bead._of(fit.params, begun._map)
         self.parameters = [FitParameter(fit.parameters[i]) for i in range(fit.free_count)]
         #: A matrix in the order of the parameters.
-        self.correlation = np.array([list(row)[: fit.count] for row in fit.correlation[0 : fit.count]])[
-            : fit.free_count, : fit.free_count
-        ]
+        count = fit.free_count
+        self.correlation = lent(np.array([list(row)[:count] for row in fit.correlation[0:count]]))
         self.kappa_gamma2 = float(fit.kappa_gamma2)
         self.kappa_gamma2_error = float(fit.kappa_gamma2_error)
         self.chi2, self.dof, self.points = float(fit.chi2), int(fit.dof), int(fit.points)
@@ -344,18 +506,62 @@ class Fit(Told):
         raise KeyError(keyword)
 
     def to_dict(self) -> Dict[str, Any]:
-        """What `festoon fit --json` prints."""
+        """What `festoon fit --json` prints.
+
+        Returns
+        -------
+        dict
+            Keys and numbers as the program prints them; None where a number is undefined.
+
+        Raises
+        ------
+        OutOfMemory
+            Where there is no memory for it.
+        """
         text: Dict[str, Any] = json.loads(take_text(lib.fst_fit_json(self._begun._params, self._fit)))
         return text
 
     def plot(self, y: Optional[str] = None, **options: Any) -> Any:
-        """Draw points over the model with matplotlib; returns the Axes: see `festoon.plots.fit`."""
+        """Draw points over the model with matplotlib; returns the Axes: see `festoon.plots.fit`.
+
+        Parameters
+        ----------
+        y
+            "mean_r", "std_r" or "bead_frequency".
+        **options
+            Those of the function that is named above.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The Axes with the picture, in which all can still be changed.
+
+        Raises
+        ------
+        BadInput
+            Where a name is unknown; the sentence has the nearest.
+        Unavailable
+            Where matplotlib is missing.
+        """
         from . import plots
 
         return plots.fit(self, y, **options)
 
     def figure(self, path: Path) -> None:
-        """The program's figure: points with errors over the model's curves; give the fit `curve_points`."""
+        """The program's figure: points with errors over the model's curves; give the fit `curve_points`.
+
+        Parameters
+        ----------
+        path
+            The picture.
+
+        Raises
+        ------
+        BadInput
+            Where the ending of the path, or an option, is wrong.
+        Unavailable
+            Where gnuplot or the ending's converter is missing.
+        """
         if self._points is None:
             raise BadInput("Fit.figure", "a fit to a track has no points to draw: festoon.measure() draws a track")
         call(lib.fst_figure_fit, self._points, self._fit, path_bytes(path))
@@ -372,12 +578,22 @@ def _fit_again(image: Any, points: Any, begun: Bead) -> Fit:
     return Fit(found, None if points is None else struct_of(points), begun)
 
 
+def _points_of(points: Any) -> Any:
+    """The table of points of a file, of data, or of measurements."""
+    if isinstance(points, (list, tuple)) and points and all(isinstance(one, Measurement) for one in points):
+        return _points_measured(points, None)
+    table = ffi.gc(ffi.new("fst_points *"), lib.fst_points_free)
+    with contextlib.nullcontext(points) if is_path(points) else as_file(points, (), "points") as path:
+        call(lib.fst_points_read, path_bytes(path), table)
+    return table
+
+
 def fit(
-    points: Optional[Path] = None,
+    points: Any = None,
     free: Union[str, Iterable[str]] = (),
     given: Union[str, Iterable[str]] = (),
     *,
-    track: Union[None, Track, Path] = None,
+    track: Any = None,
     bead: Optional[Bead] = None,
     drive: Union[None, float, str] = None,
     exposure: Union[None, float, str] = None,
@@ -391,12 +607,55 @@ def fit(
 
     `free` are the parameters sought, by key or keyword; `given` is what is known otherwise, as in
     "magnet.depth=16.2+-0.2 mm"; `bead` is where the search begins.
+
+    Parameters
+    ----------
+    points
+        A table of points: a file, a data frame or a dictionary with its columns, or a list of measurements.
+    free
+        Parameters that are sought, by key or keyword.
+    given
+        What is known otherwise, as in "magnet.depth=16.2+-0.2 mm".
+    track
+        In place of points, one track: a `Track`, a file, or data.
+    bead
+        Where the search begins.
+    drive
+        Of the magnet in a track, Hz.
+    exposure
+        Of a frame, s.
+    rivals
+        Whether other laws and dynamics are tried too.
+    bootstrap
+        How many tables are drawn anew for a second estimate of the errors; 0: none.
+    seed
+        Of what is drawn.
+    curve_points
+        Of the model's curves, for pictures; 0: none.
+    progress
+        True: a bar; or a function of (fraction, what).
+
+    Returns
+    -------
+    Fit
+        Values and errors in SI, or scaled as the parameter is.
+
+    Raises
+    ------
+    MissingFile
+        Where the file is not there.
+    BadInput
+        Where it is damaged, or something else.
+    NoConvergence
+        Where no minimum was found.
+    Interrupted
+        After Ctrl-C.
     """
     if (points is None) == (track is None):
         raise BadInput("fit", "give a table of points, or a track")
     bead = (bead or Bead())._asked()
     options = options_of(lib.fst_default_fit_options())
-    free_words, kept_free = strings([key_of(word) for word in ([free] if isinstance(free, str) else free)])
+    free_words, kept_free = strings([known_key(word) for word in ([free] if isinstance(free, str) else free)])
     given_words, kept_given = strings([given] if isinstance(given, str) else list(given))
     options.free, options.free_count = free_words, len(kept_free)
     options.given, options.given_count = given_words, len(kept_given)
@@ -412,10 +671,10 @@ def fit(
     columns: Dict[str, Any] = {}
     kept = (free_words, kept_free, given_words, kept_given, bead)
     if points is not None:
-        table = ffi.gc(ffi.new("fst_points *"), lib.fst_points_free)
-        call(lib.fst_points_read, path_bytes(points), table)
+        table = _points_of(points)
     else:
-        track = track if isinstance(track, Track) else read_track(track)  # type: ignore[arg-type]
+        if not isinstance(track, Track):
+            track = read_track(track) if is_path(track) else Track(track)
         rows, columns = track._copy()
     with Watch(progress, title="fit") as watch:
         options.progress = watch.told

@@ -14,8 +14,10 @@ from ._native import (
     ffi,
     lib,
     options_of,
+    lent,
     owned_array,
     path_bytes,
+    state_of,
     strings,
     take_text,
     text_of,
@@ -23,19 +25,19 @@ from ._native import (
 from ._pickled import Told, image_of, struct_of
 from ._progress import Progress
 from ._quantities import quantity
-from .bead import Bead, key_of, keyword_of
+from .bead import Bead, keyword_of, known_key
 from .runs import SYMMETRIES, Run
 
 Path = Union[str, "os.PathLike[str]"]
 
 
-def _names(function: Any, last: int) -> List[str]:
-    return [text_of(function(i)) for i in range(last + 1)]
+def _names(function: Any, count: int) -> List[str]:
+    return [text_of(function(i)) for i in range(count)]
 
 
-KINDS = _names(lib.fst_branch_kind_name, lib.FST_BRANCH_ALL)
-SPECIALS = _names(lib.fst_special_name, lib.FST_SPECIAL_GRAZING)
-ENDS = _names(lib.fst_end_name, lib.FST_END_LOST)
+KINDS = _names(lib.fst_branch_kind_name, lib.FST_BRANCH_COUNT)
+SPECIALS = _names(lib.fst_special_name, lib.FST_SPECIAL_COUNT)
+ENDS = _names(lib.fst_end_name, lib.FST_END_COUNT)
 
 
 def _choose(word: str, names: Sequence[str], where: str) -> int:
@@ -47,7 +49,7 @@ def _choose(word: str, names: Sequence[str], where: str) -> int:
 
 
 def _complex(re: Any, im: Any) -> Any:
-    return np.array(list(re)) + 1j * np.array(list(im))
+    return lent(np.array(list(re)) + 1j * np.array(list(im)))
 
 
 # ---------------------------------------------------------------------------------------- orbits
@@ -89,26 +91,37 @@ class Orbit(Run):
 
     @property
     def relaxation_time(self) -> float:
-        """In which a small disturbance falls by a factor e, 1/gamma; NaN: unstable."""
+        """In which a small disturbance falls by a factor e [1/gamma]; NaN: unstable."""
         return float(self._orbit.relaxation_time)
 
     @property
     def swing_ratio(self) -> float:
-        """The paper's p; NaN where r does not fall twice in a turn."""
+        """The paper's p [1]; NaN where r does not fall twice in a turn."""
         return float(self._orbit.swing_ratio)
 
     @property
     def residual(self) -> float:
-        """The greatest component of the residual of Newton's equations."""
+        """The greatest component of the residual of Newton's equations [scaled]."""
         return float(self._orbit.residual)
 
     @property
     def state(self) -> Any:
         """The state on Phi = pi/2, passed downward."""
-        return np.array(list(self._orbit.state))
+        return state_of(self._orbit.state)
 
     def to_dict(self) -> Dict[str, Any]:
-        """What `festoon orbit --json` prints."""
+        """What `festoon orbit --json` prints.
+
+        Returns
+        -------
+        dict
+            Keys and numbers as the program prints them; None where a number is undefined.
+
+        Raises
+        ------
+        OutOfMemory
+            Where there is no memory for it.
+        """
         others, _ = _orbit_array([other._orbit for other in self.others])
         text: Dict[str, Any] = json.loads(
             take_text(lib.fst_orbit_json(self.bead._params, self._orbit, others, len(self.others)))
@@ -116,7 +129,27 @@ class Orbit(Run):
         return text
 
     def plot(self, colour: str = "n_z", **options: Any) -> Any:
-        """Draw the orbit with matplotlib; returns its Axes: see `festoon.plots.orbit`."""
+        """Draw the orbit with matplotlib; returns its Axes: see `festoon.plots.orbit`.
+
+        Parameters
+        ----------
+        colour
+            The column that colours the path.
+        **options
+            Those of the function that is named above.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The Axes with the picture, in which all can still be changed.
+
+        Raises
+        ------
+        BadInput
+            Where a name is unknown; the sentence has the nearest.
+        Unavailable
+            Where matplotlib is missing.
+        """
         from . import plots
 
         return plots.orbit(self, colour, **options)
@@ -194,12 +227,12 @@ class Locked(_Single):
 
     @property
     def r(self) -> float:
-        """Distance from the axis, l."""
+        """Distance from the axis [l]."""
         return float(self._state.r)
 
     @property
     def phi_deg(self) -> float:
-        """Phi, degrees; NaN on the axis."""
+        """Phi [degrees]; NaN on the axis."""
         return float(self._state.bead_angle_deg)
 
     @property
@@ -209,12 +242,12 @@ class Locked(_Single):
 
     @property
     def slip(self) -> float:
-        """Speed of the contact point, l gamma."""
+        """Speed of the contact point [l gamma]."""
         return float(self._state.slip)
 
     @property
     def friction_power(self) -> float:
-        """<f.V> per mass."""
+        """<f.V> per mass [l^2 gamma^3]."""
         return float(self._state.friction_power)
 
     @property
@@ -225,7 +258,7 @@ class Locked(_Single):
     @property
     def state(self) -> Any:
         """X Y vX vY nX nY nZ WX WY WZ."""
-        return np.array(list(self._state.state))
+        return state_of(self._state.state)
 
     @property
     def n(self) -> Any:
@@ -253,7 +286,7 @@ class RollingLock(_Single):
         self.use = float(lock.use)
         #: Why the family ends here: cone, lifted, spin, radius, closed or lost.
         self.end = text_of(lib.fst_rolling_end_name(lock.end))
-        self.state = np.array(list(lock.state))
+        self.state = state_of(lock.state)
 
     def __repr__(self) -> str:
         return f"RollingLock: r {self.r:.6g}, Phi {self.phi_deg:.6g} deg, {self.end}"
@@ -293,7 +326,18 @@ class LockedStates(Told, Sequence[Locked]):
         return [state for state in self if state.stable]
 
     def to_dict(self) -> Dict[str, Any]:
-        """What `festoon locked --json` prints."""
+        """What `festoon locked --json` prints.
+
+        Returns
+        -------
+        dict
+            Keys and numbers as the program prints them; None where a number is undefined.
+
+        Raises
+        ------
+        OutOfMemory
+            Where there is no memory for it.
+        """
         text: Dict[str, Any] = json.loads(
             take_text(lib.fst_locked_json(self.bead._params, self.bead.omega, self._list))
         )
@@ -337,7 +381,7 @@ class Special(_Single):
     @property
     def state(self) -> Any:
         """X Y vX vY nX nY nZ WX WY WZ."""
-        return np.array(list(self._special.at.state))
+        return state_of(self._special.at.state)
 
     def __reduce__(self) -> Any:
         return _special_again, (image_of(self._special), self.parameter)
@@ -424,27 +468,86 @@ class Branch(Told):
         """Multipliers or eigenvalues of each point, NaN beyond their number."""
         values = self.points["multiplier_re"] + 1j * self.points["multiplier_im"]
         values[np.arange(values.shape[1]) >= self.points["multipliers"][:, None]] = np.nan
-        return values
+        return lent(values)
 
     def save(self, path: Path) -> None:
-        """Write the branch as JSON, which the program and festoon.read() read."""
+        """Write the branch as JSON, which the program and festoon.read() read.
+
+        Parameters
+        ----------
+        path
+            The file, .json.
+
+        Raises
+        ------
+        InputOutput
+            Where the file cannot be written.
+        """
         bead = self.bead or Bead()
         call(lib.fst_branch_write, path_bytes(path), bead._params, self._branch)
 
     def to_dict(self) -> Dict[str, Any]:
-        """What `festoon branch --json` prints."""
+        """What `festoon branch --json` prints.
+
+        Returns
+        -------
+        dict
+            Keys and numbers as the program prints them; None where a number is undefined.
+
+        Raises
+        ------
+        OutOfMemory
+            Where there is no memory for it.
+        """
         bead = self.bead or Bead()
         text: Dict[str, Any] = json.loads(take_text(lib.fst_branch_json(bead._params, self._branch)))
         return text
 
     def plot(self, y: str = "mean_r", **options: Any) -> Any:
-        """Draw the branch with matplotlib; returns its Axes: see `festoon.plots.branch`."""
+        """Draw the branch with matplotlib; returns its Axes: see `festoon.plots.branch`.
+
+        Parameters
+        ----------
+        y
+            What is drawn.
+        **options
+            Those of the function that is named above.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The Axes with the picture, in which all can still be changed.
+
+        Raises
+        ------
+        BadInput
+            Where a name is unknown; the sentence has the nearest.
+        Unavailable
+            Where matplotlib is missing.
+        """
         from . import plots
 
         return plots.branch(self, y, **options)
 
     def figure(self, path: Path, observable: Optional[str] = None, **options: Any) -> None:
-        """The program's figure as .svg, .pdf or .png."""
+        """The program's figure as .svg, .pdf or .png.
+
+        Parameters
+        ----------
+        path
+            The picture.
+        observable
+            What is drawn; by default mean_r.
+        **options
+            units ("given", "lab", "scaled", "si") and dots, pairs of numbers that are drawn too.
+
+        Raises
+        ------
+        BadInput
+            Where the ending of the path, or an option, is wrong.
+        Unavailable
+            Where gnuplot or the ending's converter is missing.
+        """
         from . import figures
 
         figures.branch(self, path, observable, **options)
@@ -476,17 +579,17 @@ def _range(key: str, value: Any) -> Tuple[float, float]:
 def branch(bead: Bead, kind: str, progress: Progress, keywords: Mapping[str, Any]) -> Branch:
     """See Bead.branch()."""
     options = options_of(lib.fst_default_branch_options())
-    options.kind = _choose(kind, KINDS, "fst_branch_options.kind")
+    options.kind = _choose(kind, KINDS, "kind")
     ranges: List[Tuple[str, Tuple[float, float]]] = []
     for name, value in keywords.items():
         if name == "special":
-            options.special = _choose(value, SPECIALS, "fst_branch_options.special")
+            options.special = _choose(value, SPECIALS, "special")
         elif name in ("tolerance", "follow"):
             setattr(options, name, value)
         elif name == "step":
             options.longest_step = value
         else:
-            ranges.append((key_of(name), _range(key_of(name), value)))
+            ranges.append((known_key(name), _range(known_key(name), value)))
     if not 1 <= len(ranges) <= 2:
         raise BadInput("branch", "give the range of one parameter, as in omega=(0.15, 0.6), or of two")
     words, kept = strings([key for key, _ in ranges])
@@ -519,8 +622,8 @@ class Lyapunov(Told):
 
     def __init__(self, bead: Bead, found: Any) -> None:
         self.bead, self._found = bead, found
-        self.exponents = np.array(list(found.exponents))
-        self.errors = np.array(list(found.errors))
+        self.exponents = state_of(found.exponents)
+        self.errors = state_of(found.errors)
         #: The greatest of the errors.
         self.error = float(found.error)
         self.converged = bool(found.converged)
@@ -531,11 +634,22 @@ class Lyapunov(Told):
         self.time = float(found.time)
         count = found.trace_count
         #: Running means of the exponents at the times `trace_time`.
-        self.trace_time = np.array(list(found.trace_time)[:count])
-        self.trace = np.array([list(row) for row in found.trace][:count])
+        self.trace_time = state_of(list(found.trace_time)[:count])
+        self.trace = lent(np.array([list(row) for row in found.trace][:count]))
 
     def to_dict(self) -> Dict[str, Any]:
-        """What `festoon lyapunov --json` prints."""
+        """What `festoon lyapunov --json` prints.
+
+        Returns
+        -------
+        dict
+            Keys and numbers as the program prints them; None where a number is undefined.
+
+        Raises
+        ------
+        OutOfMemory
+            Where there is no memory for it.
+        """
         text: Dict[str, Any] = json.loads(take_text(lib.fst_lyapunov_json(self.bead._params, self._found)))
         return text
 

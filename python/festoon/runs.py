@@ -5,18 +5,22 @@ import math
 import os
 from typing import Any, Dict, List, Optional, Union
 
-import numpy as np
-
 from ._errors import BadInput
-from ._native import Watch, call, dtype_of, ffi, freed_array, lib, options_of, path_bytes, take_text, text_of
+from ._native import Watch, call, dtype_of, ffi, freed_array, lent, lib, options_of, path_bytes, state_of, take_text, text_of
 from ._pickled import Told, image_of, struct_of
 from ._progress import Progress
 from ._quantities import Scales, quantity
 from ._tables import RESULTS, RunNumbers
 from .bead import Bead
 
-REGIMES = [text_of(lib.fst_regime_name(i)) for i in range(lib.FST_REGIME_LIFTED + 1)]
-SYMMETRIES: List[Optional[str]] = [text_of(lib.fst_symmetry_name(i)) or None for i in range(3)]
+REGIMES = [text_of(lib.fst_regime_name(i)) for i in range(lib.FST_REGIME_COUNT)]
+SYMMETRIES: List[Optional[str]] = [
+    text_of(lib.fst_symmetry_name(i)) or None for i in range(lib.FST_SYMMETRY_COUNT)
+]
+
+
+#: What is said of a run in a few lines.
+HEADLINES = ("frequency_hz", "mean_r", "std_r", "mean_alpha_dot", "festoons", "periods")
 
 
 class RunIn(RunNumbers):
@@ -27,11 +31,11 @@ class RunIn(RunNumbers):
         self._scales = Scales(run.bead._params, units)
 
     def _number(self, name: str) -> float:
-        return self._run._number(name) * self._scales.factor(RESULTS[name][0])[0]
+        return self._run._number(name) * self._scales.factor(name, RESULTS[name][0])[0]
 
     def unit(self, name: str) -> str:
         """The unit of a number here."""
-        return self._scales.factor(RESULTS[name][0])[1]
+        return self._scales.factor(name, RESULTS[name][0])[1]
 
     def __reduce__(self) -> Any:
         return RunIn, (self._run, self._units)
@@ -124,7 +128,7 @@ class Run(Told, RunNumbers):
     @property
     def final_state(self) -> Any:
         """The state at the end: X Y vX vY nX nY nZ WX WY WZ."""
-        return np.array(list(self._result.final_state))
+        return state_of(self._result.final_state)
 
     @property
     def si(self) -> RunIn:
@@ -137,11 +141,38 @@ class Run(Told, RunNumbers):
         return RunIn(self, "lab")
 
     def in_units(self, units: str) -> RunIn:
-        """The same numbers in given, lab, scaled or si units."""
+        """The same numbers in given, lab, scaled or si units.
+
+        Parameters
+        ----------
+        units
+            "given", "lab", "scaled" or "si".
+
+        Returns
+        -------
+        RunIn
+            The numbers as attributes; `unit(name)` names the unit of one.
+
+        Raises
+        ------
+        BadInput
+            Where the units are unknown.
+        """
         return RunIn(self, units)
 
     def to_dict(self) -> Dict[str, Any]:
-        """What `festoon run --json` prints."""
+        """What `festoon run --json` prints.
+
+        Returns
+        -------
+        dict
+            Keys and numbers as the program prints them; None where a number is undefined.
+
+        Raises
+        ------
+        OutOfMemory
+            Where there is no memory for it.
+        """
         count = 0 if self.ramp is None else len(self.ramp)
         points = ffi.from_buffer("fst_ramp_point[]", self.ramp) if count else ffi.NULL
         text: Dict[str, Any] = json.loads(
@@ -151,8 +182,14 @@ class Run(Told, RunNumbers):
 
     def __repr__(self) -> str:
         head = f"Run: {self.regime}" + (f", {self.symmetry}" if self.symmetry else "")
-        head += "" if self.complete else " (interrupted)"
-        return head + "\n" + _listing(self, {name: row[0] for name, row in RESULTS.items()})
+        lines = [head + ("" if self.complete else " (interrupted)")]
+        for name in HEADLINES:
+            value, error = (getattr(self, key, None) for key in (name, f"{name}_error"))
+            if value is not None and not math.isnan(value):
+                unit = "" if RESULTS[name][0] == "1" else f" {RESULTS[name][0]}"
+                spread = "" if error is None or math.isnan(error) else f" +- {error:.2g}"
+                lines.append(f"  {name} = {value:.9g}{spread}{unit}")
+        return "\n".join([*lines, "  all its numbers: to_dict(); in mm and Hz: lab; in SI: si"])
 
     def _repr_html_(self) -> str:
         from . import _cards
@@ -162,7 +199,7 @@ class Run(Told, RunNumbers):
 
 def _again(bead: Bead, image: Any, trajectory: Any, ramp: Any, complete: bool) -> Run:
     """A run from another process, which must have the same build."""
-    return Run(bead, struct_of(image), trajectory, ramp, complete)
+    return Run(bead, struct_of(image), trajectory, None if ramp is None else lent(ramp), complete)
 
 
 def _ramp_ends(bead: Bead, ramp: Any, options: Any) -> None:

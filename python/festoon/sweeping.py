@@ -4,39 +4,43 @@ import os
 import tempfile
 import threading
 import warnings
-from typing import Any, List, Optional, Tuple
+from typing import Any, Dict, List, Optional, Tuple
 
 import numpy as np
 
 from ._errors import BadInput, Interrupted, OutOfMemory
-from ._native import Watch, error_of, ffi, lib, new_error, options_of, path_bytes, strings
+from ._native import Watch, error_of, ffi, lib, new_error, options_of, path_bytes, places_of, strings
 from ._progress import Progress, bar_for
 from ._quantities import value_text
-from .bead import Bead, key_of
+from .bead import Bead, known_key
 from .sweeps import Path, Sweep, grid_of, read_sweep, sweep_of
 
-CARRY = {None: lib.FST_CARRY_NO, "up": lib.FST_CARRY_UP, "down": lib.FST_CARRY_DOWN}
+CARRY: Dict[Optional[str], int] = dict([(None, lib.FST_CARRY_NO), *places_of(lib.pyf_carries).items()])
 
 
 def axis_text(keyword: str, values: Any) -> str:
     """An axis as the library reads it: KEY=A,B,C; a text is taken as it is ("8:20:13", "8 Hz:20 Hz:5:log")."""
     if isinstance(values, str):
-        return f"{key_of(keyword)}={values}"
+        return f"{known_key(keyword)}={values}"
     if hasattr(values, "__next__"):
         values = list(values)
-    words = [value_text(value, key_of(keyword)) for value in np.atleast_1d(np.asarray(values, object)).ravel()]
-    return f"{key_of(keyword)}={','.join(words)}"
+    words = [value_text(value, known_key(keyword)) for value in np.atleast_1d(np.asarray(values, object)).ravel()]
+    return f"{known_key(keyword)}={','.join(words)}"
 
 
 def _work(batch: Any, threads: List[threading.Thread], count: int, failures: List[BaseException]) -> None:
     """Let so many threads do the batch; they are in `threads` before they begin, so that none is left behind."""
 
     def work() -> None:
-        error = new_error()
-        status = lib.pyf_batch_work(batch, error)
-        if status not in (lib.FST_OK, lib.FST_INTERRUPTED):
+        try:
+            error = new_error()
+            status = lib.pyf_batch_work(batch, error)
+            if status in (lib.FST_OK, lib.FST_INTERRUPTED):
+                return
             failures.append(error_of(error))
-            lib.pyf_batch_stop(batch)
+        except MemoryError as no_memory:
+            failures.append(no_memory)
+        lib.pyf_batch_stop(batch)
 
     for i in range(count):
         threads.append(threading.Thread(target=work, name=f"festoon-{i}", daemon=True))
@@ -103,7 +107,7 @@ def _into_file(
     words, _kept = strings(axes)
     options.axes, options.axis_count, options.seed = words, len(axes), seed
     if carry not in CARRY:
-        raise BadInput("fst_sweep_options.carry", f'unknown direction "{carry}": up or down')
+        raise BadInput("carry", f'unknown direction "{carry}": up or down')
     options.carry, options.threads, options.lanes = CARRY[carry], threads, lanes
     levels, by, step = refining
     key = ffi.new("char[]", by.encode()) if by else ffi.NULL
@@ -151,13 +155,17 @@ def sweep(
 
     Parameters
     ----------
-    axes
+    bead
+        By default the paper's.
+    **axes
         Parameters as keywords, each with an array, a list (of numbers, texts with units, or names of choices) or
         a text as the program takes it ("8:20:13", "1:100:20:log", "0.9:1.1:random:50").  Axes multiply.
     file
         A database: rows are kept in it, and the same call goes on where an interrupted one ended.
     carry
         "up" or "down": each run starts from the end of its neighbour along the first axis.
+    threads, lanes
+        How many threads, 0: all processors; how many runs are made side by side in each, 0: what is quickest.
     portable
         Arithmetic that gives the bits of Bead.run() on every machine; slower.
     seed
@@ -170,10 +178,30 @@ def sweep(
     refine_by, refine_step
         Refine where this key differs instead: "symmetry", or a number by more than the step (in scaled units),
         which may also stand behind the key: "mean_r:0.05".
+    progress
+        True: a bar; or a function of (fraction, what).
 
+    Returns
+    -------
+    Sweep
+        Its numbers are arrays of the grid's shape, scaled.
+
+    Raises
+    ------
+    BadInput
+        Where an argument is wrong; the sentence says what was expected.
+    Interrupted
+        After Ctrl-C; `partial` is what was done by then.
+    OutOfMemory
+        Where there is no memory for it.
+
+    Notes
+    -----
     A run that fails is a row of NaN with an error, not an exception.  Ctrl-C raises `Interrupted`, whose
     `partial` is the sweep with the rows that were done.
 
+    Examples
+    --------
     >>> s = sweep(Bead(run__periods=40), kappa=[1.2, 1.5])
     >>> s.shape, [str(regime) for regime in s.regime]
     ((2,), ['counter-rotating', 'counter-rotating'])

@@ -8,14 +8,15 @@ from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 
-from ._errors import ERRORS, BadInput, FestoonError, Interrupted, OutOfMemory
+from ._errors import BadInput, FestoonError, Interrupted, OutOfMemory
 from ._native import (
     Watch,
     call,
     dtype_of,
+    exception_of,
     ffi,
+    lent,
     lib,
-    new_error,
     owned_array,
     path_bytes,
     strings,
@@ -43,13 +44,13 @@ class Axis:
         values = np.array([lib.fst_grid_value(grid, number, i * self.stride) for i in range(count)])
         kind, names, _ = row_of(self.key)
         if kind == "str":
-            self.values = np.array(names.split(", "))[values.astype(int)]
+            self.values = lent(np.array(names.split(", "))[values.astype(int)])
         else:
-            self.values = values.astype(int) if kind == "int" else values
+            self.values = lent(values.astype(int) if kind == "int" else values)
 
     def at(self, points: Any) -> Any:
         """The values at points of the grid."""
-        return self.values[(points // self.stride) % len(self.values)]
+        return lent(np.asarray(self.values[(points // self.stride) % len(self.values)]))
 
 
 class SweepIn(SweepNumbers):
@@ -63,11 +64,11 @@ class SweepIn(SweepNumbers):
         self._scales = Scales(lib.fst_grid_base(sweep._grid), units)
 
     def _array(self, name: str) -> Any:
-        return self._sweep._array(name) * self._scales.factor(RESULTS[name][0])[0]
+        return self._sweep._array(name) * self._scales.factor(name, RESULTS[name][0])[0]
 
     def unit(self, name: str) -> str:
         """The unit of a number here."""
-        return self._scales.factor(RESULTS[name][0])[1]
+        return self._scales.factor(name, RESULTS[name][0])[1]
 
     def __reduce__(self) -> Any:
         return SweepIn, (self._sweep, self._units)
@@ -86,7 +87,7 @@ class Sweep(SweepNumbers):
     """
 
     def __init__(self, rows: Any, grid: Any, owner: Any, field_map: Any = None) -> None:
-        self._rows, self._grid, self._owner, self._map = rows, grid, owner, field_map
+        self._rows, self._grid, self._owner, self._map = lent(rows), grid, owner, field_map
         #: Of a refined sweep: by point the regime of runs around it that agree, where none was made; else NaN.
         self._between: Any = None
         #: Of random axes; None: not known, for it was read from a file.
@@ -120,7 +121,23 @@ class Sweep(SweepNumbers):
         return len(self._points)
 
     def parameter(self, keyword: str) -> Any:
-        """The values of a varied parameter, an array of the sweep's shape."""
+        """The values of a varied parameter, an array of the sweep's shape.
+
+        Parameters
+        ----------
+        keyword
+            Short or long, as in `festoon.sweep`.
+
+        Returns
+        -------
+        numpy.ndarray
+            In SI or scaled, as the parameter is; names of a choice.
+
+        Raises
+        ------
+        KeyError
+            Where it is not varied.
+        """
         for axis in self.axes:
             if axis.keyword == keyword or axis.key == key_of(keyword):
                 return axis.at(self._points)
@@ -139,7 +156,23 @@ class Sweep(SweepNumbers):
         return Bead._of(params[0], self._map)
 
     def bead(self, *index: int) -> Bead:
-        """The bead of a point."""
+        """The bead of a point.
+
+        Parameters
+        ----------
+        *index
+            Of a point, an integer for each dimension.
+
+        Returns
+        -------
+        Bead
+            With the values of this point.
+
+        Raises
+        ------
+        IndexError
+            Where there is no such point.
+        """
         return self._bead(int(self._points[index]))
 
     def __getitem__(self, index: Any) -> Any:
@@ -186,57 +219,57 @@ class Sweep(SweepNumbers):
         column = self._rows["result"][name]
         if self._points.size == len(self._rows) and self._points.flags.c_contiguous:
             return column.reshape(self._points.shape)
-        return column[self._points]
+        return lent(column[self._points])
 
     def _status(self) -> Any:
-        return np.where(self._rows["done"], self._rows["status"], NOT_RUN)[self._points]
+        return lent(np.where(self._rows["done"], self._rows["status"], NOT_RUN)[self._points])
 
     @property
     def regime(self) -> Any:
         """The regimes, as text; "" where there is none."""
         names = np.array([*REGIMES, ""])
-        return names[np.where(self.done, self._rows["result"]["regime"][self._points], len(REGIMES))]
+        return lent(names[np.where(self.done, self._rows["result"]["regime"][self._points], len(REGIMES))])
 
     @property
     def symmetry(self) -> Any:
         """S1, S2 or ""."""
         names = np.array([name or "" for name in SYMMETRIES])
-        return names[np.where(self.done, self._rows["result"]["symmetry"][self._points], 0)]
+        return lent(names[np.where(self.done, self._rows["result"]["symmetry"][self._points], 0)])
 
     @property
     def reason(self) -> Any:
         """Why each regime."""
-        return np.char.decode(self._rows["result"]["reason"][self._points], "utf-8", "replace")
+        return lent(np.char.decode(self._rows["result"]["reason"][self._points], "utf-8", "replace"))
 
     @property
     def rhs_calls(self) -> Any:
         """Evaluations of the equations of motion."""
-        return self._rows["result"]["rhs_calls"][self._points]
+        return lent(self._rows["result"]["rhs_calls"][self._points])
 
     @property
     def never_slips(self) -> Any:
         """Dry friction: 1 where the contact stuck all the time of the means, 0, or -1: other laws."""
-        return self._rows["result"]["never_slips"][self._points]
+        return lent(self._rows["result"]["never_slips"][self._points])
 
     @property
     def final_state(self) -> Any:
         """The states at the end, ten numbers each."""
-        return self._rows["result"]["final_state"][self._points]
+        return lent(self._rows["result"]["final_state"][self._points])
 
     @property
     def done(self) -> Any:
         """Where there is a result."""
-        return self._status() == lib.FST_OK
+        return lent(self._status() == lib.FST_OK)
 
     @property
     def failed(self) -> Any:
         """Where a run failed."""
-        return self._status() > lib.FST_OK
+        return lent(self._status() > lib.FST_OK)
 
     @property
     def computed(self) -> Any:
         """Where a run was made, failed or not: everywhere, unless the sweep was refined or interrupted."""
-        return self._status() != NOT_RUN
+        return lent(self._status() != NOT_RUN)
 
     @property
     def refined(self) -> bool:
@@ -252,12 +285,11 @@ class Sweep(SweepNumbers):
         status = int(self._rows["status"][point])
         if status <= lib.FST_OK:
             return None
-        kind = ERRORS.get(status, FestoonError)
         pointer = int(self._rows["error"][point])
         if not pointer:
-            return kind("", text_of(lib.fst_status_text(status)))
+            return exception_of(status, "", text_of(lib.fst_status_text(status)))
         error = ffi.cast("fst_error *", pointer)
-        return kind(text_of(error.where), text_of(error.sentence))
+        return exception_of(status, text_of(error.where), text_of(error.sentence))
 
     @property
     def errors(self) -> Any:
@@ -265,7 +297,7 @@ class Sweep(SweepNumbers):
         found = np.empty(self._points.shape, object)
         for place in np.argwhere(self.failed):
             found[tuple(place)] = self._error(int(self._points[tuple(place)]))
-        return found
+        return lent(found)
 
     @property
     def si(self) -> SweepIn:
@@ -317,23 +349,72 @@ class Sweep(SweepNumbers):
 
     # ------------------------------------------------------------------ for other libraries
 
-    def to_pandas(self) -> Any:
-        """A DataFrame with a row for each point."""
+    def _units(self, units: str) -> Any:
+        """Factor and unit of each number in these units."""
+        if units == "scaled":
+            return {name: (1.0, unit) for name, (unit, _) in RESULTS.items()}
+        scales = SweepIn(self, units)._scales
+        return {name: scales.factor(name, unit) for name, (unit, _) in RESULTS.items()}
+
+    def _about(self) -> Dict[str, str]:
+        """What a table says of itself: the bead's scene, the axes, the version that computed it."""
+        scene = Bead._unmade(lib.fst_grid_base(self._grid)[0]).scene()
+        return {"scene": scene, "axes": "; ".join(self._axis_texts()), "version": text_of(lib.fst_version())}
+
+    def to_pandas(self, units: str = "scaled") -> Any:
+        """A DataFrame with a row for each point.
+
+        Parameters
+        ----------
+        units
+            "scaled", "lab" or "si", of the results; parameters are in SI or scaled, as they are given.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Its `attrs` have units, scene, axes and version.
+
+        Raises
+        ------
+        BadInput
+            Where the unit of the scaled numbers is varied itself.
+        """
         import pandas
 
+        shown = self._units(units)
         columns: Dict[str, Any] = {axis.keyword: axis.at(self._points.ravel()) for axis in self.axes}
         columns["regime"] = self.regime.ravel()
         columns["symmetry"] = self.symmetry.ravel()
         for name in RESULTS:
             # omega is a parameter and a result: the same number, and one column.
-            columns.setdefault(name, np.ascontiguousarray(self._array(name)).ravel())
+            columns.setdefault(name, shown[name][0] * np.ascontiguousarray(self._array(name)).ravel())
         columns["error"] = ["" if error is None else str(error) for error in self.errors.ravel()]
-        return pandas.DataFrame(columns)
+        frame = pandas.DataFrame(columns)
+        given = {axis.keyword: row_of(axis.key)[1] for axis in self.axes if row_of(axis.key)[0] != "str"}
+        frame.attrs = {**self._about(), "units": {**{name: unit for name, (_, unit) in shown.items()}, **given}}
+        return frame
 
-    def to_xarray(self) -> Any:
-        """A Dataset with units and docs in `attrs`; it has the dimensions of the sweep."""
+    def to_xarray(self, units: str = "scaled") -> Any:
+        """A Dataset with units and docs in `attrs`; it has the dimensions of the sweep.
+
+        Parameters
+        ----------
+        units
+            "scaled", "lab" or "si", of the results; parameters are in SI or scaled, as they are given.
+
+        Returns
+        -------
+        xarray.Dataset
+            Each variable has its unit in `attrs`, the data set scene, axes and version.
+
+        Raises
+        ------
+        BadInput
+            Where the unit of the scaled numbers is varied itself.
+        """
         import xarray
 
+        shown = self._units(units)
         coords: Dict[str, Any] = {}
         for axis in self.axes:
             kind, unit, doc = row_of(axis.key)
@@ -345,13 +426,35 @@ class Sweep(SweepNumbers):
             else:
                 coords[axis.keyword] = (self.dims, axis.at(self._points), attrs)
         data: Dict[str, Any] = {"regime": (self.dims, self.regime), "symmetry": (self.dims, self.symmetry)}
-        for name, (unit, doc) in RESULTS.items():
+        for name, (_, doc) in RESULTS.items():
             if name not in coords:
-                data[name] = (self.dims, self._array(name), {"units": unit, "long_name": name, "description": doc})
-        return xarray.Dataset(data, coords)
+                factor, unit = shown[name]
+                attrs = {"units": unit, "long_name": name, "description": doc}
+                data[name] = (self.dims, factor * self._array(name), attrs)
+        return xarray.Dataset(data, coords, self._about())
 
     def plot(self, y: Any = None, **options: Any) -> Any:
-        """Draw curves or a map with matplotlib; returns its Axes: see `festoon.plots.sweep`."""
+        """Draw curves or a map with matplotlib; returns its Axes: see `festoon.plots.sweep`.
+
+        Parameters
+        ----------
+        y
+            What is drawn.
+        **options
+            Those of the function that is named above.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The Axes with the picture, in which all can still be changed.
+
+        Raises
+        ------
+        BadInput
+            Where a name is unknown; the sentence has the nearest.
+        Unavailable
+            Where matplotlib is missing.
+        """
         from . import plots
 
         return plots.sweep(self, y, **options)
@@ -383,7 +486,7 @@ def sweep_of(batch: Any, grid: Any, field_map: Any = None) -> Sweep:
     """The rows of a batch as a sweep; what is not there becomes NaN."""
     owner = (batch, grid)
     count = int(lib.fst_grid_points(grid))
-    rows = owned_array(lib.pyf_batch_rows(batch), count, dtype_of("pyf_row"), owner)
+    rows = owned_array(lib.pyf_batch_rows(batch), count, dtype_of("pyf_row"), owner, writable=True)
     lacking = (rows["done"] == 0) | (rows["status"] != lib.FST_OK)
     if lacking.any():
         for name in RESULTS:
@@ -402,13 +505,12 @@ def _sweep_again(
     batch = ffi.gc(lib.pyf_batch_new(grid, lib.FST_ARITHMETIC_PORTABLE, 0), lib.pyf_batch_free)
     if not batch:
         raise OutOfMemory("sweep", "no memory for the rows")
-    made = Sweep(owned_array(lib.pyf_batch_rows(batch), len(rows), rows.dtype, (batch, grid)), grid, (batch, grid))
-    made._rows[:] = rows
+    ours = owned_array(lib.pyf_batch_rows(batch), len(rows), rows.dtype, (batch, grid), writable=True)
+    ours[:] = rows
     for i, (where, sentence) in errors.items():
-        status = made._rows["status"][i]
         if not lib.pyf_row_fail(lib.pyf_batch_rows(batch) + i, where, sentence):
             raise OutOfMemory("sweep", "no memory for a row")
-        made._rows["status"][i] = status
+    made = Sweep(ours, grid, (batch, grid))
     made._points, made.dims, made._between, made._seed = points, dims, between, seed
     return made
 
@@ -424,6 +526,8 @@ def _fill(row: Any, given: Mapping[str, Any], texts: Mapping[str, int]) -> None:
     for name in RESULTS:
         value = given.get(name)
         setattr(result, name, float("nan") if value is None else value)
+    slips = given.get("never_slips")
+    result.never_slips = -1 if slips is None else int(slips)
     if row.status != lib.FST_OK:
         if not lib.pyf_row_fail(ffi.addressof(row), b"", (given.get("reason") or given["status"]).encode()):
             raise OutOfMemory("sweep", "no memory for a row")
@@ -431,8 +535,6 @@ def _fill(row: Any, given: Mapping[str, Any], texts: Mapping[str, int]) -> None:
     result.regime = REGIMES.index(given["regime"])
     result.symmetry = SYMMETRIES.index(given["symmetry"])
     result.reason = (given.get("reason") or "").encode()[:255]
-    slips = given.get("never_slips")
-    result.never_slips = -1 if slips is None else int(slips)
     result.returns, result.rhs_calls = given["returns"], given["rhs_calls"]
     result.accepted, result.rejected = given["steps_accepted"], given["steps_rejected"]
     result.final_state = given["final_state"]
@@ -442,7 +544,9 @@ def _regimes_between(path: Path) -> Any:
     """The regimes that a refined sweep gives to points without a run; None: it is not refined, or damaged."""
     keys, _kept = strings(["regime"])
     table = ffi.new("fst_sweep_table *")
-    if lib.fst_sweep_read_filled(path_bytes(path), keys, 1, table, new_error()) != lib.FST_OK:
+    try:
+        call(lib.fst_sweep_read_filled, path_bytes(path), keys, 1, table)
+    except BadInput:
         return None
     try:
         if table.refine == 0:
@@ -467,7 +571,7 @@ def read_sweep(path: Path) -> Sweep:
             with Watch(None) as watch:
                 watch.call_apart(lib.fst_sweep_export, path_bytes(path), lib.FST_EXPORT_JSON, out.encode(), ffi.NULL)
         except FestoonError as error:
-            if not os.path.exists(out):
+            if not os.path.exists(out) or isinstance(error, OutOfMemory):
                 raise
             warnings.warn(error.sentence, stacklevel=2)
         with open(out, encoding="utf-8") as file:
@@ -476,7 +580,7 @@ def read_sweep(path: Path) -> Sweep:
     if not batch:
         raise OutOfMemory("sweep", "no memory for the rows")
     rows = lib.pyf_batch_rows(batch)
-    texts = {text_of(lib.fst_status_text(i)): i for i in range(lib.FST_INTERRUPTED + 1)}
+    texts = {text_of(lib.fst_status_text(i)): i for i in range(lib.FST_STATUS_COUNT)}
     for row in given:
         _fill(rows[row["point"]], row, texts)
     made = sweep_of(batch, grid)

@@ -1,11 +1,12 @@
 """The samples of a run: an array with the columns of a trajectory file."""
 
 import os
-from typing import Any, Optional, Tuple, Union
+import textwrap
+from typing import Any, List, Optional, Tuple, Union
 
 import numpy as np
 
-from ._native import Watch, ffi, lib, path_bytes
+from ._native import Watch, ffi, lent, lib, path_bytes
 from ._progress import Progress
 from ._quantities import Scales
 from ._tables import COLUMNS, Columns
@@ -75,6 +76,29 @@ class Trajectory(Columns, np.ndarray):  # type: ignore[type-arg]
     def _column(self, name: str) -> Any:
         return self.view(np.ndarray)[name]
 
+    def _told(self) -> List[str]:
+        """What a card says of it."""
+        head = f"Trajectory: {len(self)} samples of {len(self.dtype.names or ())} columns"
+        lines = [head + ("" if self.complete else " (interrupted)")]
+        if len(self):
+            lab, turns = self.lab, self.drive_turns
+            lines.append(f"drive periods {turns[0]:.6g} to {turns[-1]:.6g}, {lab.t[0]:.6g} to {lab.t[-1]:.6g} {lab.unit('t')}")
+            lines.append(f"r from {lab.r.min():.4g} to {lab.r.max():.4g} {lab.unit('r')}")
+        return [*lines, f"columns: {', '.join(self.dtype.names or ())}"]
+
+    def __repr__(self) -> str:
+        if self.dtype != DTYPE or self.ndim != 1 or self.bead is None:
+            return repr(self.view(np.ndarray))
+        return "\n".join(line for part in self._told() for line in textwrap.wrap(part, 108, subsequent_indent="  "))
+
+    def __str__(self) -> str:
+        return repr(self)
+
+    def _repr_html_(self) -> str:
+        from . import _cards
+
+        return _cards.trajectory_card(self)
+
     @property
     def si(self) -> TrajectoryIn:
         """The columns in SI units."""
@@ -97,7 +121,27 @@ class Trajectory(Columns, np.ndarray):  # type: ignore[type-arg]
         return table, (columns, pointers)
 
     def plot(self, colour: str = "n_z", **options: Any) -> Any:
-        """Draw the path with matplotlib; returns its Axes: see `festoon.plots.trajectory`."""
+        """Draw the path with matplotlib; returns its Axes: see `festoon.plots.trajectory`.
+
+        Parameters
+        ----------
+        colour
+            The column that colours the path.
+        **options
+            Those of the function that is named above.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The Axes with the picture, in which all can still be changed.
+
+        Raises
+        ------
+        BadInput
+            Where a name is unknown; the sentence has the nearest.
+        Unavailable
+            Where matplotlib is missing.
+        """
         from . import plots
 
         return plots.trajectory(self, colour, **options)
@@ -107,6 +151,22 @@ class Trajectory(Columns, np.ndarray):  # type: ignore[type-arg]
 
         Kinds: path, local-n, radius-field, time, section, ramp.  Options: colour, arrows, inset, begin, end
         (drive periods), zoom (mm), title, keys, units.
+
+        Parameters
+        ----------
+        path
+            The picture.
+        kind
+            One of those above.
+        **options
+            Those above.
+
+        Raises
+        ------
+        BadInput
+            Where the ending of the path, or an option, is wrong.
+        Unavailable
+            Where gnuplot or the ending's converter is missing.
         """
         from . import figures
 
@@ -116,20 +176,64 @@ class Trajectory(Columns, np.ndarray):  # type: ignore[type-arg]
         """A film of the motion, .mp4, .gif or a folder of PNG frames.
 
         Options: width, height, fps, begin, end (drive periods), seconds_per_turn, colour, units.
+
+        Parameters
+        ----------
+        path
+            The film.
+        progress
+            True: a bar; or a function of (fraction, what).
+        **options
+            Those above.
+
+        Raises
+        ------
+        BadInput
+            Where an argument is wrong; the sentence says what was expected.
+        Unavailable
+            Where ffmpeg or cairo is missing.
+        Interrupted
+            After Ctrl-C.
         """
         from . import films
 
         films.movie(self, path, progress, **options)
 
     def film(self, path: Path, *, truth: Optional[Path] = None, progress: Progress = None, **options: Any) -> Any:
-        """A gray film as a camera over the plate takes it; the options are those of fst_camera_options."""
+        """A gray film as a camera over the plate takes it; the options are those of fst_camera_options.
+
+        Parameters
+        ----------
+        path
+            The film.
+        truth
+            A file for where the bead was.
+        progress
+            True: a bar; or a function of (fraction, what).
+        **options
+            width, height, fps (1/s), exposure (s), noise (gray levels), tilt (degrees), distance (m), plate (m), ...
+
+        Returns
+        -------
+        dict
+            What is known of the film: frames, plate (m), distance (m), ...
+
+        Raises
+        ------
+        BadInput
+            Where an argument is wrong; the sentence says what was expected.
+        Unavailable
+            Where ffmpeg is missing.
+        Interrupted
+            After Ctrl-C.
+        """
         from . import films
 
         return films.camera(self, path, truth, progress, **options)
 
 
 def _again(rows: Any, bead: Bead, complete: bool) -> Trajectory:
-    return Trajectory._of(rows, bead, complete)
+    return Trajectory._of(lent(rows), bead, complete)
 
 
 def read(path: Path) -> Trajectory:
@@ -143,6 +247,6 @@ def read(path: Path) -> Trajectory:
             rows[name] = np.frombuffer(ffi.buffer(table.columns[i], 8 * table.rows), "f8")
     found, table.map = table.map, ffi.NULL
     bead = Bead._out_of_file(table.params, ffi.gc(found, lib.fst_field_map_free) if found else None)
-    return Trajectory._of(rows, bead, bool(table.complete))
+    return Trajectory._of(lent(rows), bead, bool(table.complete))
 
 

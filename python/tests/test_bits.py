@@ -1,6 +1,5 @@
 """The bits of Python are the bits of the program."""
 
-import json
 import math
 import subprocess
 
@@ -8,11 +7,7 @@ import numpy as np
 import pytest
 
 import festoon as fs
-
-
-def ask(program, *words):
-    """The JSON that the program prints."""
-    return json.loads(subprocess.run([program, *words], check=True, stdout=subprocess.PIPE).stdout)
+from conftest import ask
 
 
 def same(ours, theirs):
@@ -27,7 +22,6 @@ def same(ours, theirs):
     [
         {"frequency": "8 Hz"},
         {"kappa": 1.2, "omega": 0.3, "model__dynamics": "farago2020"},
-        {"omega": 0.405, "run__controller": "damped"},
         {"friction__law": "coulomb", "friction__mu": 0.1, "run__periods": 30},
     ],
 )

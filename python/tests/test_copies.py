@@ -55,6 +55,37 @@ def test_copies_and_pickles_are_equal(track):
     assert len(kinds) == 19, kinds
 
 
+def test_arrays_of_results_can_be_read_alone(track):
+    """Every array that a result lends, those of its parts too."""
+    seen, looked_at = 0, set()
+
+    def look(thing, name):
+        nonlocal seen
+        if isinstance(thing, np.ndarray):
+            assert not thing.flags.writeable, name
+            with pytest.raises(ValueError, match="read-only|readonly"):
+                thing[...] = thing[...] if thing.ndim else thing
+            seen += 1
+        if isinstance(thing, (list, tuple)):
+            for part in thing:
+                look(part, name)
+        elif type(thing).__module__.startswith("festoon.") and id(thing) not in looked_at:
+            looked_at.add(id(thing))
+            kept.append(thing)
+            if isinstance(thing, (fs.Bead, fs.Groups)) or type(thing).__name__.endswith("In"):
+                return  # they hold numbers; columns in other units are computed for the caller
+            for member in dir(thing):
+                own = isinstance(thing, np.ndarray) and hasattr(np.ndarray, member)
+                if not member.startswith("_") and not own and not callable(getattr(type(thing), member, None)):
+                    look(getattr(thing, member), f"{name}.{member}")
+
+    kept = []  # an id is one object's as long as it lives
+    for one in results(track):
+        for again in (one, pickle.loads(pickle.dumps(one))):
+            look(again, type(one).__name__)
+    assert seen > 400
+
+
 def test_what_differs_is_not_equal():
     bead = fs.Bead(run__periods=4)
     run = bead.run()
@@ -96,6 +127,8 @@ def test_parameters_are_unset():
     assert given.kappa == 1.5 and given.replace(kappa=fs.UNSET).kappa == magnet.kappa != 1.5
     with pytest.raises(fs.BadInput, match="unknown key"):
         bead.replace(kapa=fs.UNSET)
+    with pytest.raises(fs.BadInput, match="run.method is gone"):
+        fs.Bead(run__method="splitting")
 
 
 def test_a_map_chooses_the_shape():

@@ -1,12 +1,14 @@
 """The pages say what is true: their lines run, the gallery runs, and sphinx has nothing to complain of."""
 
 import doctest
+import html
 import importlib.util
 import os
 import pathlib
 import re
 import subprocess
 import sys
+import urllib.parse
 
 import pytest
 
@@ -61,6 +63,30 @@ def test_example(path, tmp_path):
     run_lines(path.read_text(encoding="utf-8"), tmp_path)
 
 
+def lacking(root):
+    """What pages, styles and scripts name on this machine and is not there, or needs a server to be found."""
+    named = []
+    for page in root.rglob("*.html"):
+        for tag in re.findall(r"<[a-z]+\s[^>]*>", page.read_text(encoding="utf-8")):
+            assert not re.match(r"<script[^>]*type=.module", tag), "a browser does not load a module from a file"
+            named += [(page, name) for name in re.findall(r"\s(?:href|src)=[\"']([^\"']+)", tag)]
+    for style in root.rglob("*.css"):
+        text = re.sub(r"/\*.*?\*/", "", style.read_text(encoding="utf-8"), flags=re.S)
+        named += [(style, name) for name in re.findall(r"@import\s+[\"']([^\"']+)", text)]
+        named += [(style, name) for name in re.findall(r"url\([\"']?([^\"')]+)", text)]
+    for script in root.rglob("*.js"):
+        named += [(script, name) for name in re.findall(r"^import\b.*", script.read_text(encoding="utf-8"), re.M)]
+    assert len(named) > 500
+    gone = []
+    for where, name in named:
+        url = urllib.parse.urlsplit(html.unescape(name))
+        if not (url.scheme or url.netloc) and url.path and (
+            url.path.startswith("/") or not (where.parent / urllib.parse.unquote(url.path)).exists()
+        ):
+            gone.append((str(where.relative_to(root)), name))
+    return gone
+
+
 @pytest.mark.skipif(not HAVE_SPHINX, reason="sphinx or a part of it is missing")
 def test_sphinx_has_no_complaint():
     """Of the pages, and of the examples, which it runs: an error or a warning ends in what it says."""
@@ -73,3 +99,4 @@ def test_sphinx_has_no_complaint():
     assert all(path.stem in page for path in EXAMPLES)
     pictures = list((BUILD / "docs/python/_images").glob("sphx_glr_plot_*.png"))
     assert len(pictures) >= 8 and str(SOURCE) not in page
+    assert lacking(BUILD / "docs/python") == []

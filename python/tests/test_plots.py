@@ -55,7 +55,7 @@ def test_path_in_millimetres(run):
     corners = np.array([segment[0] for segment in drawn])
     pieces = len(corners) // (len(shown) - 1)
     assert np.allclose(corners[::pieces][: len(shown) - 1], 23 * np.stack([shown.x, shown.y], axis=1)[:-1], rtol=1e-12)
-    assert words(ax)[0].startswith("magnet's lines")
+    assert words(ax)[0].startswith("outline of the magnet's lines")
 
 
 @pytest.mark.parametrize("frame", ["lab", "magnet"])
@@ -212,3 +212,25 @@ def test_without_matplotlib_the_package_is_named():
         [sys.executable, "-B", "-c", program], env={"PYTHONPATH": path}, check=True, capture_output=True, text=True
     ).stdout
     assert "sudo apt install python3-matplotlib" in told
+
+
+def test_axes_come_back(bead):
+    matplotlib = pytest.importorskip("matplotlib")
+    import matplotlib.pyplot as plt
+
+    tr = bead.run(periods=20, trajectory=True).trajectory
+    axes = [tr.plot(colour="n_z"), fs.sweep(bead.replace(run__periods=5), frequency=[9, 10]).plot()]
+    axes.append(bead.branch(omega=(0.24, 0.25)).plot())
+    assert all(isinstance(ax, matplotlib.axes.Axes) and ax.get_xlabel() for ax in axes)
+    plt.close("all")
+
+
+def test_pictures_have_the_magnet():
+    """Fields and paths show the poles of a magnet of parts, at the same places."""
+    part = {"kind": "cylinder", "centre": (0.015, 0, 0), "size": (0.02, 0.008), "remanence": (0, 0, 1)}
+    magnet = fs.Bead(magnet__shape="parts", magnet__parts=[part], run__discard=0)
+    ax = magnet.plot_field(units="lab")
+    rim = next(line.get_xydata() for line in ax.lines if "north poles" in str(line.get_label()))
+    rim = rim[np.isfinite(rim).all(axis=1)]
+    assert np.allclose(np.hypot(rim[:, 0] - 15, rim[:, 1]), 10, rtol=1e-3) and len(rim) > 90
+    assert "mT" in colour_map(ax).get_ylabel()

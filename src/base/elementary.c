@@ -8,50 +8,33 @@
 
 #include "base/elementary.inl"
 
-/* Taylor's series for |x| <= pi/4; the first term left out is below 2^-64 of the result. */
-static double sine_series(double x)
+/* c[0] x + c[1] x^2 + ... */
+static double series(const double *c, int terms, double x)
 {
-    static const double c[] = {-1.0 / 6,        1.0 / 120,        -1.0 / 5040,          1.0 / 362880,
-                               -1.0 / 39916800, 1.0 / 6227020800, -1.0 / 1307674368000, 1.0 / 355687428096000};
-    const double x2 = x * x;
     double sum = 0.0;
-    for (int i = 7; i >= 0; --i)
-        sum = (sum + c[i]) * x2;
-    return x + x * sum;
-}
-
-static double cosine_series(double x)
-{
-    static const double c[] = {1.0 / 24,        -1.0 / 720,         1.0 / 40320,         -1.0 / 3628800,
-                               1.0 / 479001600, -1.0 / 87178291200, 1.0 / 20922789888000};
-    const double x2 = x * x;
-    double sum = 0.0;
-    for (int i = 6; i >= 0; --i)
-        sum = (sum + c[i]) * x2;
-    return 1.0 - (0.5 * x2 - x2 * sum);
+    for (int i = terms - 1; i >= 0; --i)
+        sum = (sum + c[i]) * x;
+    return sum;
 }
 
 void fst_sin_cos_degrees(double degrees, double *sine, double *cosine)
 {
+    /* Taylor's series for |x| <= pi/4; the first terms left out are below 2^-64 of the results. */
+    static const double of_sine[] = {
+        -1.0 / 6,        1.0 / 120,        -1.0 / 5040,          1.0 / 362880,
+        -1.0 / 39916800, 1.0 / 6227020800, -1.0 / 1307674368000, 1.0 / 355687428096000};
+    static const double of_cosine[] = {1.0 / 24,        -1.0 / 720,         1.0 / 40320,         -1.0 / 3628800,
+                                       1.0 / 479001600, -1.0 / 87178291200, 1.0 / 20922789888000};
     /* Take off whole turns and then quarter turns; for whole degrees this is exact.  Then |rest| <= 45. */
     double rest = degrees - 360.0 * (double)(long long)(degrees / 360.0);
     const int quarters = (int)(rest / 90.0 + (rest < 0 ? -0.5 : 0.5));
     rest -= 90.0 * quarters;
-    const double radians = rest * 0.017453292519943295769;
-    const double s = sine_series(radians), c = cosine_series(radians);
-    switch (((quarters % 4) + 4) % 4) {
-    case 0:
-        *sine = s, *cosine = c;
-        break;
-    case 1:
-        *sine = c, *cosine = -s;
-        break;
-    case 2:
-        *sine = -s, *cosine = -c;
-        break;
-    default:
-        *sine = -c, *cosine = s;
-    }
+    const double x = rest * 0.017453292519943295769, x2 = x * x;
+    const double s = x + x * series(of_sine, 8, x2), c = 1.0 - (0.5 * x2 - x2 * series(of_cosine, 7, x2));
+    const double turned[] = {s, c, -s, -c, s}; /* the sine of the angle, then a quarter turn further on */
+    const int quarter = ((quarters % 4) + 4) % 4;
+    *sine = turned[quarter];
+    *cosine = turned[quarter + 1];
 }
 
 double fst_atan2(double y, double x)

@@ -62,7 +62,7 @@ static inline __attribute__((always_inline)) REAL FN(binary_exponent)(REAL p, RE
 #endif
 }
 
-/* log(p/q) of p, q > 0 and p - q, which the caller may know better than the rounded p and q tell it. */
+/* log(p/q) of p, q > 0 and p - q, which the caller may know better than it follows from the rounded p and q. */
 static inline __attribute__((always_inline)) REAL FN(log_of_ratio)(REAL p, REAL q, REAL p_minus_q)
 {
     const REAL high = R(0x1.62e42fefa38p-1), low = R(0x1.ef35793c7673007e5fp-45); /* of log 2 */

@@ -3,7 +3,6 @@
 
 #include <stdarg.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "base/text.h"
 
@@ -11,33 +10,25 @@ fst_status fst_fail(fst_error *error, fst_status code, const char *where, const 
 {
     if (!error)
         return code;
-    char sentence[sizeof error->sentence];
+    fst_error made = {code, "", ""}; /* the arguments may point into the old one */
     va_list arguments;
     va_start(arguments, format);
-    (void)vsnprintf(sentence, sizeof sentence, format, arguments);
+    (void)vsnprintf(made.sentence, sizeof made.sentence, format, arguments);
     va_end(arguments);
-    /* The arguments may point into the old error, so both fields are replaced only now. */
-    char place[sizeof error->where];
-    (void)snprintf(place, sizeof place, "%s", where ? where : "");
+    (void)snprintf(made.where, sizeof made.where, "%s", where ? where : "");
     /* Both may quote a file's name or contents, and both go to a terminal. */
-    fst_text_tame(place);
-    fst_text_tame(sentence);
-    error->code = code;
-    memcpy(error->where, place, sizeof place);
-    memcpy(error->sentence, sentence, sizeof sentence);
+    fst_text_tame(made.where);
+    fst_text_tame(made.sentence);
+    *error = made;
     return code;
 }
 
 const char *fst_status_text(fst_status status)
 {
-    switch (status) {
-#define TEXT_CASE(name, text)                                                                                  \
-    case name:                                                                                                 \
-        return text;
-        FST_STATUS_LIST(TEXT_CASE)
-#undef TEXT_CASE
-    }
-    return "unknown status";
+#define TEXT(name, text) text,
+    static const char *const texts[] = {FST_STATUS_LIST(TEXT)};
+#undef TEXT
+    return (unsigned)status < FST_STATUS_COUNT ? texts[status] : "unknown status";
 }
 
 const char *fst_version(void)

@@ -1,8 +1,8 @@
 /* nearest.c - the valid name that is nearest to a wrong one, for "did you mean". */
-#include <festoon/festoon.h>
-
 #include <stdio.h>
 #include <string.h>
+
+#include "base/text.h"
 
 /* Longer words are compared by their first 63 letters: every valid name is shorter. */
 #define LONGEST 63
@@ -10,11 +10,6 @@
 /* Costs are counted in halves: a wrong letter costs 2, a letter in the wrong case 1. */
 #define EDIT_COST 2U
 #define CASE_COST 1U
-
-static unsigned char lower(unsigned char letter)
-{
-    return letter >= 'A' && letter <= 'Z' ? (unsigned char)(letter - 'A' + 'a') : letter;
-}
 
 static unsigned least(unsigned a, unsigned b)
 {
@@ -25,7 +20,7 @@ static unsigned replacing(char a, char b)
 {
     if (a == b)
         return 0;
-    return lower((unsigned char)a) == lower((unsigned char)b) ? CASE_COST : EDIT_COST;
+    return fst_lower(a) == fst_lower(b) ? CASE_COST : EDIT_COST;
 }
 
 /* The edit distance in halves.  A letter left out, put in or replaced costs one edit, and so do two neighbours
@@ -84,4 +79,139 @@ int fst_nearest_name(const char *word, const char *names, char *nearest, size_t 
     if (size)
         (void)snprintf(nearest, size, "%.*s", (int)best_length, best_name ? best_name : "");
     return best_name ? (int)((best + 1) / 2) : -1;
+}
+
+/* What people call some of the names.  A name counts only where it is among those there are. */
+static const char *const synonyms[][2] = {
+    {"dry", "coulomb"},
+    {"solid", "coulomb"},
+    {"damping", "viscous"},
+    {"drag", "viscous"},
+    {"wet", "viscous"},
+    {"fluid", "viscous"},
+    {"linear", "viscous"},
+    {"stokes", "viscous"},
+    {"frictionless", "none"},
+    {"off", "none"},
+    {"no", "none"},
+    {"exact", "rigid"},
+    {"paper", "farago2020"},
+    {"printed", "farago2020"},
+    {"permanent", "hard"},
+    {"neodymium", "hard"},
+    {"ferromagnetic", "hard"},
+    {"soft", "paramagnetic"},
+    {"still", "rest"},
+    {"box", "cuboid"},
+    {"block", "cuboid"},
+    {"cube", "cuboid"},
+    {"ball", "sphere"},
+    {"disc", "cylinder"},
+    {"disk", "cylinder"},
+    {"rod", "cylinder"},
+    {"map", "grid"},
+    {"file", "grid"},
+    {"hertz", "Hz"},
+    {"millimetre", "mm"},
+    {"millimeter", "mm"},
+    {"gram", "g"},
+    {"tesla", "T"},
+    {"degree", "deg"},
+    {"simulate", "run"},
+    {"draw", "plot"},
+    {"figure", "plot"},
+    {"film", "movie"},
+    {"video", "movie"},
+    {"scan", "sweep"},
+    {"bifurcation", "branch"},
+    {"continue", "branch"},
+    {"equilibria", "locked"},
+    {"validate", "check"},
+    {"parameters", "schema"},
+    {"metric", "si"},
+    {"laboratory", "lab"},
+};
+
+static const char *synonym_of(const char *word, const char *names)
+{
+    for (size_t i = 0; i < sizeof synonyms / sizeof *synonyms; ++i) {
+        const char *a = word, *b = synonyms[i][0];
+        while (*a && fst_lower(*a) == *b) {
+            ++a;
+            ++b;
+        }
+        if (!*a && !*b && fst_name_place(synonyms[i][1], names) >= 0)
+            return synonyms[i][1];
+    }
+    return NULL;
+}
+
+/* Whether a person can have meant `name`, `edits` away from `word`: one begins with the other, or at most a third of
+ * the letters differ. */
+static int is_near(const char *word, const char *name, int edits)
+{
+    const size_t length = strlen(word), name_length = strlen(name);
+    const size_t shorter = length < name_length ? length : name_length;
+    const int allowed = length < 6 ? 1 : (int)(length / 3);
+    return edits <= allowed || (shorter > 1 && strncmp(word, name, shorter) == 0);
+}
+
+/* "mean_r" for "r": the first name that ends with the word, copied to `nearest`; 0: there is none. */
+static int ends_so(const char *word, const char *names, char *nearest, size_t size)
+{
+    const size_t length = strlen(word);
+    for (const char *name = names; *name; name += strspn(name, "|")) {
+        const size_t whole = strcspn(name, "|");
+        if (length && whole > length + 1 && name[whole - length - 1] == '_' &&
+            memcmp(name + whole - length, word, length) == 0) {
+            (void)snprintf(nearest, size, "%.*s", (int)whole, name);
+            return 1;
+        }
+        name += whole;
+    }
+    return 0;
+}
+
+/* "one, two, three" of "one|two|three". */
+static void write_list(const char *names, char *text)
+{
+    for (; *names; ++names) {
+        *text++ = *names == '|' ? ',' : *names;
+        if (*names == '|')
+            *text++ = ' ';
+    }
+    *text = '\0';
+}
+
+const char *fst_suggest_name(const char *word, const char *names, char text[FST_SUGGESTION_SIZE])
+{
+    enum { LIST_BESIDE = 100, LIST_ALONE = 400 }; /* lists of so many letters are read to their ends */
+    char nearest[LONGEST + 1] = "", list[2 * LIST_ALONE + 1];
+    const size_t length = strlen(names);
+    const char *meant = synonym_of(word, names);
+    const int edits = fst_nearest_name(word, names, nearest, sizeof nearest);
+    const int near = meant || !strchr(names, '|') || is_near(word, nearest, edits) ||
+                     ends_so(word, names, nearest, sizeof nearest);
+    if (length <= LIST_ALONE)
+        write_list(names, list);
+    if (!near && length <= LIST_ALONE)
+        (void)snprintf(text, FST_SUGGESTION_SIZE, "choose one of %.500s", list);
+    else if (length <= LIST_BESIDE)
+        (void)snprintf(text, FST_SUGGESTION_SIZE, "the nearest is %s (choices: %.250s)",
+                       meant ? meant : nearest, list);
+    else
+        (void)snprintf(text, FST_SUGGESTION_SIZE, "the nearest is %s", meant ? meant : nearest);
+    return text;
+}
+
+int fst_name_place(const char *name, const char *names)
+{
+    const size_t length = strlen(name);
+    for (int place = 0; *names; ++place) {
+        const size_t here = strcspn(names, "|");
+        if (here == length && memcmp(names, name, length) == 0)
+            return place;
+        names += here + (names[here] == '|');
+    }
+    return -1;
 }

@@ -61,10 +61,7 @@ double fst_number_read(const char *text, size_t length, int shift)
     if (mantissa < length)
         exponent = strtol(text + mantissa + 1, NULL, 10);
     /* Clamped far outside the range of a double, so that the sum below cannot overflow. */
-    if (exponent > 100000)
-        exponent = 100000;
-    if (exponent < -100000)
-        exponent = -100000;
+    exponent = exponent > 100000 ? 100000 : exponent < -100000 ? -100000 : exponent;
     char shifted[LONGEST + 16];
     (void)snprintf(shifted, sizeof shifted, "%.*se%ld", (int)mantissa, text, exponent + shift);
     fst_c_locale locale = fst_c_locale_enter();

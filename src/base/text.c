@@ -78,6 +78,17 @@ const char *fst_trim(const char *text, size_t *length)
     return text;
 }
 
+const char *fst_name_at(const char *names, int place, size_t *length)
+{
+    names = place < 0 ? "" : names;
+    for (int at = 0; at < place; ++at) {
+        names += strcspn(names, "|");
+        names += *names == '|';
+    }
+    *length = strcspn(names, "|");
+    return names;
+}
+
 int fst_ends_in(const char *name, const char *ending)
 {
     const size_t length = strlen(name), wanted = strlen(ending);

@@ -37,27 +37,23 @@ static const unit_row unit_rows[] = {
     {FST_UNIT_PRESSURE, "GPa", 9, 1, 1},     {FST_UNIT_ANGLE, "deg", 0, 1, 1},
     {FST_UNIT_ANGLE, "rad", 0, 180, FST_PI}, {FST_UNIT_ANGLE, "turn", 0, 360, 1},
     {FST_UNIT_DENSITY, "kg/m3", 0, 1, 1},    {FST_UNIT_DENSITY, "g/cm3", 3, 1, 1},
+    {FST_UNIT_TIME, "s", 0, 1, 1},           {FST_UNIT_TIME, "ms", -3, 1, 1},
+    {FST_UNIT_TIME, "us", -6, 1, 1},         {FST_UNIT_FORCE, "N", 0, 1, 1},
+    {FST_UNIT_FORCE, "mN", -3, 1, 1},        {FST_UNIT_FORCE, "uN", -6, 1, 1},
+    {FST_UNIT_ENERGY, "J", 0, 1, 1},         {FST_UNIT_ENERGY, "mJ", -3, 1, 1},
+    {FST_UNIT_ENERGY, "uJ", -6, 1, 1},       {FST_UNIT_POWER, "W", 0, 1, 1},
+    {FST_UNIT_POWER, "mW", -3, 1, 1},        {FST_UNIT_POWER, "uW", -6, 1, 1},
 };
 static const size_t unit_row_count = sizeof unit_rows / sizeof unit_rows[0];
 
-/* For each kind: the SI unit, the list for messages, and the row of the unit in which people like to read
- * values. */
-static const struct {
+typedef struct unit_kind {
     const char *name, *accepted, *customary;
-} kinds[] = {
-    [FST_UNIT_NUMBER] = {"1", "", NULL},
-    [FST_UNIT_LENGTH] = {"m", "um mm cm m", "mm"},
-    [FST_UNIT_MASS] = {"kg", "mg g kg", "g"},
-    [FST_UNIT_MOMENT] = {"A m^2", "\"A m^2\" \"mA m^2\"", "A m2"},
-    [FST_UNIT_FIELD] = {"T", "uT mT T G", "mT"},
-    [FST_UNIT_FREQUENCY] = {"Hz", "Hz kHz rpm 1/min rad/s", "Hz"},
-    [FST_UNIT_RATE] = {"1/s", "1/s s-1 1/ms", "1/s"},
-    [FST_UNIT_ACCELERATION] = {"m/s^2", "m/s^2", "m/s2"},
-    [FST_UNIT_SPEED] = {"m/s", "mm/s cm/s m/s", "mm/s"},
-    [FST_UNIT_PRESSURE] = {"Pa", "Pa kPa MPa GPa", "GPa"},
-    [FST_UNIT_ANGLE] = {"deg", "deg rad turn", "deg"},
-    [FST_UNIT_DENSITY] = {"kg/m^3", "kg/m^3 g/cm^3", "kg/m3"},
-};
+    int power;
+} unit_kind;
+
+#define KIND(NAME, name, accepted, customary, power) {name, accepted, customary, power},
+static const unit_kind kinds[] = {FST_UNITS(KIND)};
+#undef KIND
 
 const char *fst_unit_name(fst_unit unit)
 {
@@ -67,6 +63,12 @@ const char *fst_unit_name(fst_unit unit)
 const char *fst_unit_accepted(fst_unit unit)
 {
     return kinds[unit].accepted;
+}
+
+const char *fst_unit_customary(fst_unit unit, int *power)
+{
+    *power = kinds[unit].power;
+    return *power ? kinds[unit].customary : kinds[unit].name;
 }
 
 /* Different spellings of one character or sign; the longest come first. */
@@ -86,38 +88,31 @@ static void plain_unit(const char *text, size_t length, char *plain, size_t size
 {
     size_t out = 0;
     for (size_t at = 0; at < length && out + 4 < size;) {
-        const char *piece = NULL;
-        size_t taken = 1;
-        for (size_t i = 0; i < sizeof spellings / sizeof spellings[0] && !piece; ++i) {
-            size_t found = strlen(spellings[i].found);
+        const char *piece = text + at;
+        size_t taken = 1, put = 1;
+        for (size_t i = 0; i < sizeof spellings / sizeof spellings[0]; ++i) {
+            const size_t found = strlen(spellings[i].found);
             if (found <= length - at && memcmp(text + at, spellings[i].found, found) == 0) {
                 piece = spellings[i].plain;
                 taken = found;
+                put = strlen(piece);
+                break;
             }
         }
-        char letter = piece ? piece[0] : text[at];
-        if (strchr(" \t\r\n", letter)) {
-            if (out && plain[out - 1] != ' ')
-                plain[out++] = ' ';
-        } else if (piece) {
-            memcpy(plain + out, piece, strlen(piece));
-            out += strlen(piece);
-        } else {
-            plain[out++] = letter;
+        if (!strchr(" \t\r\n", *piece)) {
+            memcpy(plain + out, piece, put);
+            out += put;
+        } else if (out && plain[out - 1] != ' ') {
+            plain[out++] = ' ';
         }
         at += taken;
     }
     plain[out] = '\0';
 }
 
-static int lower(char letter)
-{
-    return letter >= 'A' && letter <= 'Z' ? letter - 'A' + 'a' : letter;
-}
-
 static int same_but_for_case(const char *a, const char *b)
 {
-    while (*a && lower(*a) == lower(*b)) {
+    while (*a && fst_lower(*a) == fst_lower(*b)) {
         ++a;
         ++b;
     }
@@ -137,78 +132,71 @@ static const unit_row *find_unit(fst_unit kind, const char *plain)
     return NULL;
 }
 
-static void wrong_unit(const char *text, fst_unit kind, const char *written, const char *plain,
-                       fst_error *error)
+/* The sentence is the quoted text, and what is wrong with it. */
+static fst_value_fault refuse(const char *text, const char *wrong, fst_value_fault fault, fst_error *error)
 {
-    char quoted_text[FST_QUOTE_SIZE], quoted[FST_QUOTE_SIZE];
-    fst_quote(text, quoted_text);
+    char quoted[FST_QUOTE_SIZE];
+    (void)fst_fail(error, FST_BAD_INPUT, "value", "%s %s", fst_quote(text, quoted), wrong);
+    return fault;
+}
+
+static fst_value_fault wrong_unit(const char *text, fst_unit kind, const char *written, const char *plain,
+                                  fst_error *error)
+{
+    char quoted[FST_QUOTE_SIZE], names[256] = "", wrong[FST_SUGGESTION_SIZE + FST_QUOTE_SIZE];
+    char suggestion[FST_SUGGESTION_SIZE];
     fst_quote(written, quoted);
-    if (kind == FST_UNIT_NUMBER) {
-        (void)fst_fail(error, FST_BAD_INPUT, "value",
-                       "%s has the unit %s, but this value is a number without a unit", quoted_text, quoted);
-        return;
-    }
-    char names[256] = "", nearest[16];
     for (size_t i = 0; i < unit_row_count; ++i)
         if (unit_rows[i].kind == kind) {
             size_t used = strlen(names);
             (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "", unit_rows[i].name);
         }
-    fst_nearest_name(plain, names, nearest, sizeof nearest);
-    (void)fst_fail(error, FST_BAD_INPUT, "value",
-                   "%s has the unknown unit %s; the nearest is %s (units here: %s)", quoted_text, quoted,
-                   nearest, kinds[kind].accepted);
-}
-
-static fst_value_fault no_number(const char *text, fst_error *error)
-{
-    char quoted[FST_QUOTE_SIZE];
-    (void)fst_fail(error, FST_BAD_INPUT, "value", "%s is no decimal number", fst_quote(text, quoted));
-    return FST_VALUE_NO_NUMBER;
+    fst_suggest_name(plain, names, suggestion);
+    const int is_near =
+        strncmp(suggestion, "the nearest", strlen("the nearest")) == 0 && strchr(suggestion, '(');
+    if (kind == FST_UNIT_NUMBER)
+        (void)snprintf(wrong, sizeof wrong, "has the unit %s, but this value is a number without a unit",
+                       quoted);
+    else
+        (void)snprintf(wrong, sizeof wrong, "has the unknown unit %s%s%.*s (units here: %s)", quoted,
+                       is_near ? "; " : "", is_near ? (int)strcspn(suggestion, "(") - 1 : 0, suggestion,
+                       kinds[kind].accepted);
+    return refuse(text, wrong, FST_VALUE_WRONG_UNIT, error);
 }
 
 /* The number of `text` breaks off at a comma with a digit behind it.  The sentence shows the value with a point
  * where the comma can only be a decimal one. */
 static fst_value_fault decimal_comma(const char *text, fst_error *error)
 {
-    char quoted[FST_QUOTE_SIZE];
-    const char *comma = strchr(text, ',');
-    const char next = comma[1 + strspn(comma + 1, "0123456789")];
-    if (memchr(text, '.', (size_t)(comma - text)) || next == ',' || next == '.') {
-        (void)fst_fail(
-            error, FST_BAD_INPUT, "value",
-            "%s has a comma in the number: write a decimal point, and nothing between thousands, as in "
-            "1234.5",
-            fst_quote(text, quoted));
-        return FST_VALUE_COMMA;
-    }
-    char corrected[64];
+    char corrected[64], quoted[FST_QUOTE_SIZE], wrong[160];
+    const size_t comma = strcspn(text, ",");
+    const char next = text[comma + 1 + strspn(text + comma + 1, "0123456789")];
+    if (memchr(text, '.', comma) || next == ',' || next == '.')
+        return refuse(text,
+                      "has a comma in the number: write a decimal point, and nothing between thousands, as in "
+                      "1234.5",
+                      FST_VALUE_COMMA, error);
     (void)snprintf(corrected, sizeof corrected, "%s", text);
-    if (strcspn(corrected, ",") < strlen(corrected))
-        corrected[strcspn(corrected, ",")] = '.';
-    char quoted_corrected[FST_QUOTE_SIZE];
-    (void)fst_fail(error, FST_BAD_INPUT, "value", "%s has a decimal comma: write %s, with a point",
-                   fst_quote(text, quoted), fst_quote(corrected, quoted_corrected));
-    return FST_VALUE_COMMA;
+    if (comma < strlen(corrected))
+        corrected[comma] = '.';
+    (void)snprintf(wrong, sizeof wrong, "has a decimal comma: write %s, with a point",
+                   fst_quote(corrected, quoted));
+    return refuse(text, wrong, FST_VALUE_COMMA, error);
 }
 
 fst_value_fault fst_value_read(const char *text, fst_unit unit, double *value, fst_error *error)
 {
-    char quoted[FST_QUOTE_SIZE];
     size_t length;
     const char *trimmed = fst_trim(text, &length);
     if (length == 0) {
         (void)fst_fail(error, FST_BAD_INPUT, "value", "the value is missing");
         return FST_VALUE_MISSING;
     }
-    size_t number = fst_number_length(trimmed);
-    if (number == 0)
-        return no_number(text, error);
-
-    if (trimmed[number] == ',' && trimmed[number + 1] >= '0' && trimmed[number + 1] <= '9')
+    const size_t number = fst_number_length(trimmed), gap = number + strspn(trimmed + number, " \t\r\n");
+    const char *behind = trimmed + number;
+    if (number > 0 && behind[0] == ',' && behind[1] >= '0' && behind[1] <= '9')
         return decimal_comma(trimmed, error);
 
-    size_t gap = number + strspn(trimmed + number, " \t\r\n");
     char written[64] = "", plain[32];
     if (gap < length)
         (void)snprintf(written, sizeof written, "%.*s", (int)(length - gap), trimmed + gap);
@@ -217,18 +205,14 @@ fst_value_fault fst_value_read(const char *text, fst_unit unit, double *value, f
     const unit_row *row = written[0] ? find_unit(unit, plain) : &bare;
     /* "0x10" begins with a number, the zero, so the complaint would be about the unit "x10": say what is really
      * wrong. */
-    if (!row && (written[0] == 'x' || written[0] == 'X'))
-        return no_number(text, error);
-    if (!row) {
-        wrong_unit(text, unit, written, plain, error);
-        return FST_VALUE_WRONG_UNIT;
-    }
+    if (number == 0 || (!row && (written[0] == 'x' || written[0] == 'X')))
+        return refuse(text, "is no decimal number", FST_VALUE_NO_NUMBER, error);
+    if (!row)
+        return wrong_unit(text, unit, written, plain, error);
 
-    double result = fst_number_read(trimmed, number, row->shift) * row->times / row->over;
-    if (!isfinite(result)) {
-        (void)fst_fail(error, FST_BAD_INPUT, "value", "%s is too large for a number", fst_quote(text, quoted));
-        return FST_VALUE_TOO_LARGE;
-    }
+    const double result = fst_number_read(trimmed, number, row->shift) * row->times / row->over;
+    if (!isfinite(result))
+        return refuse(text, "is too large for a number", FST_VALUE_TOO_LARGE, error);
     *value = result;
     return FST_VALUE_READ;
 }
@@ -242,15 +226,12 @@ int fst_value_write(char *text, size_t size, double value, fst_unit unit)
 {
     char number[40], candidate[64];
     const char *customary = kinds[unit].customary;
-    if (!customary) {
-        (void)fst_number_write(number, sizeof number, value);
+    (void)fst_number_write(number, sizeof number, value);
+    if (!customary[0])
         return snprintf(text, size, "%s", number);
-    }
     /* The customary units are powers of ten of the SI unit: shift the digits instead of computing with the
      * value. */
-    const unit_row *row = find_unit(unit, customary);
-    (void)fst_number_write(number, sizeof number, value);
-    double shifted = fst_number_read(number, fst_number_length(number), -row->shift);
+    const double shifted = fst_number_read(number, fst_number_length(number), kinds[unit].power);
     double back;
     (void)fst_number_write(number, sizeof number, shifted);
     (void)snprintf(candidate, sizeof candidate, "%s %s", number, customary);

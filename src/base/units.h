@@ -19,7 +19,7 @@ typedef enum {
     FST_VALUE_TOO_LARGE
 } fst_value_fault;
 
-/* As fst_parse_value(), which tells no more than whether there is a value. */
+/* As fst_parse_value(), but returns only whether there is a value. */
 fst_value_fault fst_value_read(const char *text, fst_unit unit, double *value, fst_error *error);
 
 #endif

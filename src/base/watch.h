@@ -26,7 +26,7 @@ static inline fst_status fst_tell(const fst_progress *progress, double fraction,
 /* A part of a longer piece of work, which goes from one fraction of the whole to another.  fst_part_tell() with
  * the part as its user is the tell() that the part is given. */
 typedef struct fst_part {
-    const fst_progress *whole; /* NULL: nobody is told */
+    const fst_progress *whole; /* NULL: nobody wants to know */
     double from, to;
     const char *what; /* the name of the part; NULL: the name that the part itself gives */
 } fst_part;
@@ -41,12 +41,12 @@ static inline fst_status fst_part_tell(void *user, double fraction, const char *
 enum { FST_WATCH_WORK = 4000 }; /* evaluations between two questions: a few milliseconds */
 
 typedef struct fst_watch {
-    const fst_progress *progress; /* NULL: nobody is told, and nobody stops the work */
+    const fst_progress *progress; /* NULL: no reports, and the work cannot be stopped */
     double share[2];              /* where the present part begins and ends in the whole work */
     double fraction;              /* largest fraction reported so far: progress never falls */
     unsigned work;                /* evaluations since the last question */
-    fst_status status;            /* other than FST_OK once the caller said stop */
-    fst_error error;              /* what the caller said then */
+    fst_status status;            /* other than FST_OK once the caller said stop, or memory ran out */
+    fst_error error;              /* what was said then */
 } fst_watch;
 
 static inline void fst_watch_begin(fst_watch *watch, const fst_progress *progress)
@@ -70,6 +70,16 @@ static inline void fst_watch_reach(fst_watch *watch, double x)
         return;
     const double fraction = watch->share[0] + x * (watch->share[1] - watch->share[0]);
     watch->fraction = fraction > watch->fraction ? fraction : watch->fraction;
+}
+
+/* Let a part of the work end with `status`.  That memory ran out is repeated for ever, as a stop is. */
+static inline fst_status fst_watch_end(fst_watch *watch, fst_status status, const fst_error *error)
+{
+    if (watch && status == FST_NO_MEMORY && watch->status == FST_OK) {
+        watch->status = status;
+        watch->error = error ? *error : (fst_error){status, "", "out of memory"};
+    }
+    return status;
 }
 
 /* Tell the caller, and ask whether to go on.  FST_OK where it says so, and where there is no watch. */

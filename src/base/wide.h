@@ -11,9 +11,11 @@
 
 #include <immintrin.h>
 
+#include "base/real_scalar.h"
 #include "base/sums.h"
 
-/* The bodies are compiled once more: undefine the kind of number that the earlier headers brought. */
+/* The bodies are compiled once more: undefine the kind of number that the earlier headers brought.  The
+ * portable form keeps the products and quotients of real_scalar.h. */
 #undef ENDS
 #undef ENDS_GROUPS
 #undef ENDS_OF
@@ -32,16 +34,7 @@
 #undef REAL_EVERYWHERE
 #undef REAL_ANY
 #undef REAL_SELECT
-#undef REAL_RECIPROCAL_SQRT
 #undef REAL_OF
-#undef REAL_MULADD
-#undef REAL_MULSUB
-#undef REAL_NEGMULADD
-#undef REAL_ROUGH_RECIPROCAL
-#undef REAL_OVER_SQRT
-#undef REAL_ROOT
-#undef REAL_RECIPROCAL
-#undef REAL_QUOTIENT
 #undef RHS_KIND
 #undef REAL_BITS
 #undef REAL_PAIR
@@ -59,11 +52,7 @@ static inline fst_wide fst_wide_of(double x)
 
 #if FST_LANES == 8
 #define WIDE_NATIVE(x) ((__m512d)(x))
-#define WIDE_SQRT(x) ((fst_wide)_mm512_sqrt_pd(WIDE_NATIVE(x)))
-#define WIDE_MAX(a, b) ((fst_wide)_mm512_max_pd(WIDE_NATIVE(a), WIDE_NATIVE(b)))
-#define WIDE_MULADD(a, b, c) ((fst_wide)_mm512_fmadd_pd(WIDE_NATIVE(a), WIDE_NATIVE(b), WIDE_NATIVE(c)))
-#define WIDE_MULSUB(a, b, c) ((fst_wide)_mm512_fmsub_pd(WIDE_NATIVE(a), WIDE_NATIVE(b), WIDE_NATIVE(c)))
-#define WIDE_NEGMULADD(a, b, c) ((fst_wide)_mm512_fnmadd_pd(WIDE_NATIVE(a), WIDE_NATIVE(b), WIDE_NATIVE(c)))
+#define WIDE_OPERATION(name) _mm512_##name##_pd
 
 typedef __mmask8 fst_wide_mask;
 #define WIDE_LESS(a, b) _mm512_cmp_pd_mask(WIDE_NATIVE(a), WIDE_NATIVE(b), _CMP_LT_OQ)
@@ -85,11 +74,7 @@ static inline unsigned fst_wide_lanes_of(fst_wide_mask mask)
 }
 #else
 #define WIDE_NATIVE(x) ((__m256d)(x))
-#define WIDE_SQRT(x) ((fst_wide)_mm256_sqrt_pd(WIDE_NATIVE(x)))
-#define WIDE_MAX(a, b) ((fst_wide)_mm256_max_pd(WIDE_NATIVE(a), WIDE_NATIVE(b)))
-#define WIDE_MULADD(a, b, c) ((fst_wide)_mm256_fmadd_pd(WIDE_NATIVE(a), WIDE_NATIVE(b), WIDE_NATIVE(c)))
-#define WIDE_MULSUB(a, b, c) ((fst_wide)_mm256_fmsub_pd(WIDE_NATIVE(a), WIDE_NATIVE(b), WIDE_NATIVE(c)))
-#define WIDE_NEGMULADD(a, b, c) ((fst_wide)_mm256_fnmadd_pd(WIDE_NATIVE(a), WIDE_NATIVE(b), WIDE_NATIVE(c)))
+#define WIDE_OPERATION(name) _mm256_##name##_pd
 
 typedef __m256d fst_wide_mask;
 #define WIDE_LESS(a, b) _mm256_cmp_pd(WIDE_NATIVE(a), WIDE_NATIVE(b), _CMP_LT_OQ)
@@ -111,6 +96,13 @@ static inline unsigned fst_wide_lanes_of(fst_wide_mask mask)
     return (unsigned)_mm256_movemask_pd(mask);
 }
 #endif
+
+#define WIDE_SQRT(x) ((fst_wide)WIDE_OPERATION(sqrt)(WIDE_NATIVE(x)))
+#define WIDE_MAX(a, b) ((fst_wide)WIDE_OPERATION(max)(WIDE_NATIVE(a), WIDE_NATIVE(b)))
+#define WIDE_MULADD(a, b, c) ((fst_wide)WIDE_OPERATION(fmadd)(WIDE_NATIVE(a), WIDE_NATIVE(b), WIDE_NATIVE(c)))
+#define WIDE_MULSUB(a, b, c) ((fst_wide)WIDE_OPERATION(fmsub)(WIDE_NATIVE(a), WIDE_NATIVE(b), WIDE_NATIVE(c)))
+#define WIDE_NEGMULADD(a, b, c)                                                                                \
+    ((fst_wide)WIDE_OPERATION(fnmadd)(WIDE_NATIVE(a), WIDE_NATIVE(b), WIDE_NATIVE(c)))
 
 static inline fst_wide fst_wide_add_where(fst_wide_mask mask, fst_wide a, fst_wide b)
 {
@@ -252,6 +244,15 @@ static inline fst_wide fst_wide_inverse_eighth_root(fst_wide x)
     return quarter * fst_wide_rough_reciprocal_sqrt(quarter);
 }
 
+#undef REAL_RECIPROCAL_SQRT
+#undef REAL_MULADD
+#undef REAL_MULSUB
+#undef REAL_NEGMULADD
+#undef REAL_ROUGH_RECIPROCAL
+#undef REAL_OVER_SQRT
+#undef REAL_ROOT
+#undef REAL_RECIPROCAL
+#undef REAL_QUOTIENT
 #define REAL_MULADD(a, b, c) WIDE_MULADD(a, b, c)
 #define REAL_MULSUB(a, b, c) WIDE_MULSUB(a, b, c)
 #define REAL_NEGMULADD(a, b, c) WIDE_NEGMULADD(a, b, c)
@@ -269,16 +270,6 @@ static inline fst_wide fst_wide_inverse_eighth_root(fst_wide x)
 #define REAL_ROUGH_RECIPROCAL(x) fst_wide_rough_reciprocal(x)
 #define REAL_OVER_SQRT(a, x) ((a)*fst_wide_rough_reciprocal_sqrt(x)) /* to four digits */
 #define REAL_INVERSE_EIGHTH_ROOT(x) fst_wide_inverse_eighth_root(x)
-#else
-#define REAL_RECIPROCAL_SQRT(x) (R(1.0) / REAL_SQRT(x))
-#define REAL_ROOT(x, inverse) REAL_SQRT(x)
-#define REAL_RECIPROCAL(x) (R(1.0) / (x))
-#define REAL_QUOTIENT(a, b) ((a) / (b))
-#define REAL_MULADD(a, b, c) ((a) * (b) + (c))
-#define REAL_MULSUB(a, b, c) ((a) * (b) - (c))
-#define REAL_NEGMULADD(a, b, c) ((c) - (a) * (b))
-#define REAL_ROUGH_RECIPROCAL(x) (R(1.0) / (x))
-#define REAL_OVER_SQRT(a, x) ((a) / REAL_SQRT(x))
 #endif
 
 /* A right-hand side is long and called thirteen times a step, so it is not inlined.  noipa also keeps gcc from

@@ -9,14 +9,11 @@
 static const option options[] = {
     SCENE_OPTIONS,
     JSON_OPTION,
-    {"kind", '\0', "counter|locked|all",
-     "counter: the counter-rotating family; locked: every family of equilibria; all: these and the orbits "
-     "born at their Hopf points"},
+    {"kind", '\0', FST_WORDS(FST_BRANCH_KINDS), FST_DOCS(FST_BRANCH_KINDS)},
     {"over", '\0', "KEY=LO:HI", "the parameter and its range, as in drive.omega=0.2:3"},
     {"with", '\0', "KEY=LO:HI",
      "a second parameter and its range: special points are followed as curves over both"},
-    {"follow", '\0', "fold|pitchfork|period-doubling|hopf|neimark-sacker|origin-crossing",
-     "type of these special points"},
+    {"follow", '\0', FST_WORDS(FST_FOLLOWED_SPECIALS), "type of these special points"},
     {"output", 'o', "FILE.json", "write the branch to a file, for festoon plot"},
     {"tolerance", '\0', "T",
      "tolerance of the integration; that of Newton's method and of special points follows it (1e-12)"},
@@ -41,16 +38,15 @@ static fst_status read_range(const char *name, const char *text, char key[64], d
         return fst_params_set(&scratch, key, low, error);
     }
     if (row < 0 || fst_param_at(row)->kind != FST_KIND_REAL) {
-        char names[2048] = "", nearest[64];
+        char names[2048] = "", suggestion[FST_SUGGESTION_SIZE];
         for (int i = 0; i < fst_param_count(); ++i) {
             const size_t used = strlen(names);
             if (fst_param_at(i)->kind == FST_KIND_REAL)
                 (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "",
                                fst_param_at(i)->key);
         }
-        (void)fst_nearest_name(key, names, nearest, sizeof nearest);
-        return fail(error, FST_BAD_INPUT, name, "\"%s\" is no parameter with real values; the nearest is %s",
-                    key, nearest);
+        return fail(error, FST_BAD_INPUT, name, "\"%s\" is no parameter with real values; %s", key,
+                    fst_suggest_name(key, names, suggestion));
     }
     fst_error why;
     fst_status status = fst_parse_value(low, fst_param_at(row)->unit, from, &why);
@@ -72,22 +68,12 @@ static fst_status read_second(const arguments *given, char key[64], fst_branch_o
     if (!with || !follow)
         return fail(error, FST_BAD_INPUT, with ? "--follow" : "--with",
                     "curves over two parameters need both, as in --follow pitchfork --with model.kappa=1:3");
-    char names[160] = "", nearest[32];
-    int found = 0;
-    for (int type = FST_SPECIAL_FOLD; type <= FST_SPECIAL_ORIGIN_CROSSING; ++type) {
-        const char *name = fst_special_name((fst_special_type)type);
-        const size_t used = strlen(names);
-        (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "", name);
-        if (strcmp(follow, name) == 0) {
-            o->special = (fst_special_type)type;
-            found = 1;
-        }
-    }
-    if (!found) {
-        (void)fst_nearest_name(follow, names, nearest, sizeof nearest);
-        return fail(error, FST_BAD_INPUT, "--follow", "unknown type \"%.60s\"; the nearest is %s (%s)", follow,
-                    nearest, names);
-    }
+    int place = 0;
+    const fst_status status =
+        read_choice("--follow", follow, "type", FST_WORDS(FST_FOLLOWED_SPECIALS), &place, error);
+    if (status != FST_OK)
+        return status;
+    o->special = (fst_special_type)place;
     o->second_key = key;
     return read_range("--with", with, key, &o->second_from, &o->second_to, error);
 }
@@ -98,23 +84,16 @@ static fst_status read_options(const arguments *given, char keys[2][64], fst_bra
     *o = fst_default_branch_options();
     const char *kind = option_value(given, "kind"), *over = option_value(given, "over");
     const char *tolerance = option_value(given, "tolerance"), *step = option_value(given, "step");
-    int found = 0;
-    for (int k = FST_BRANCH_COUNTER; kind && k <= FST_BRANCH_ALL; ++k)
-        if (strcmp(kind, fst_branch_kind_name((fst_branch_kind)k)) == 0) {
-            o->kind = (fst_branch_kind)k;
-            found = 1;
-        }
+    int place = 0;
     if (!kind)
-        return fail(error, FST_BAD_INPUT, "--kind", "say which: --kind counter, --kind locked or --kind all");
-    if (!found) {
-        char nearest[32];
-        (void)fst_nearest_name(kind, "counter|locked|all", nearest, sizeof nearest);
-        return fail(error, FST_BAD_INPUT, "--kind",
-                    "unknown kind \"%.60s\"; the nearest is %s (counter|locked|all)", kind, nearest);
-    }
+        return fail(error, FST_BAD_INPUT, "--kind", "say which: --kind %s", FST_WORDS(FST_BRANCH_KINDS));
+    fst_status status = read_choice("--kind", kind, "kind", FST_WORDS(FST_BRANCH_KINDS), &place, error);
+    if (status != FST_OK)
+        return status;
+    o->kind = (fst_branch_kind)place;
     if (!over)
         return fail(error, FST_BAD_INPUT, "--over", "say over which parameter: --over drive.omega=0.2:3");
-    fst_status status = read_range("--over", over, keys[0], &o->from, &o->to, error);
+    status = read_range("--over", over, keys[0], &o->from, &o->to, error);
     o->key = keys[0];
     if (status == FST_OK)
         status = read_second(given, keys[1], o, error);
@@ -144,6 +123,19 @@ static fst_status check_place(const char *path, fst_error *error)
                : fail(error, FST_IO, path, "cannot write here: %s", strerror(errno));
 }
 
+/* The unit of a parameter's values with a blank before it; omega is in units of gamma, other scaled numbers have
+ * none. */
+static const char *unit_behind(const char *key, char text[16])
+{
+    const int row = fst_param_find(key);
+    const char *unit = strcmp(key, "drive.omega") == 0 ? "gamma"
+                       : row >= 0                      ? fst_unit_name(fst_param_at(row)->unit)
+                                                       : "";
+    (void)snprintf(text, 16, "%s%s", unit[0] && strcmp(unit, "1") != 0 ? " " : "",
+                   strcmp(unit, "1") != 0 ? unit : "");
+    return text;
+}
+
 /* Print a curve over two parameters: some of its points. */
 static void print_curve(FILE *out, const fst_branch *b, int curve)
 {
@@ -151,8 +143,10 @@ static void print_curve(FILE *out, const fst_branch *b, int curve)
     for (size_t i = 0; i < b->point_count; ++i)
         if (b->points[i].branch == curve && count++ == 0)
             first = i;
-    (void)fprintf(out, "\n%s, curve %d: %zu points\n  %16s %16s\n", fst_special_name(b->followed), curve, count,
-                  b->key, b->second_key);
+    char one[16], two[16];
+    (void)fprintf(out, "\n%s, curve %d: %zu points\n  %16s %16s\n  %16s %16s\n", fst_special_name(b->followed),
+                  curve, count, b->key, b->second_key, unit_behind(b->key, one),
+                  unit_behind(b->second_key, two));
     const size_t rows = count < 16 ? count : 16;
     for (size_t k = 0; k < rows; ++k) {
         const fst_branch_point *p = &b->points[first + (rows > 1 ? k * (count - 1) / (rows - 1) : 0)];
@@ -163,6 +157,8 @@ static void print_curve(FILE *out, const fst_branch *b, int curve)
 
 static void print_branch(FILE *out, const fst_branch *b)
 {
+    char unit[16];
+    (void)unit_behind(b->key, unit);
     if (b->second_key[0]) {
         (void)fprintf(out, "%d curves of %s points over %s and %s\n", b->branches,
                       fst_special_name(b->followed), b->key, b->second_key);
@@ -170,18 +166,19 @@ static void print_branch(FILE *out, const fst_branch *b)
             print_curve(out, b, curve);
         (void)fprintf(out, "\nends\n");
         for (size_t i = 0; i < b->end_count; ++i)
-            (void)fprintf(out, "  curve %d at %s = %.10g: %s\n", b->ends[i].branch, b->key,
-                          unsigned_zero(b->ends[i].value, ALL_DIGITS), b->ends[i].reason);
+            (void)fprintf(out, "  curve %d at %s = %.10g%s: %s\n", b->ends[i].branch, b->key,
+                          unsigned_zero(b->ends[i].value, ALL_DIGITS), unit, b->ends[i].reason);
         return;
     }
-    (void)fprintf(out, "%d branches, %zu points over %s = %.10g to %.10g\n\nspecial points\n", b->branches,
-                  b->point_count, b->key, unsigned_zero(b->from, ALL_DIGITS), unsigned_zero(b->to, ALL_DIGITS));
+    (void)fprintf(out, "%d branches, %zu points over %s = %.10g to %.10g%s\n\nspecial points\n", b->branches,
+                  b->point_count, b->key, unsigned_zero(b->from, ALL_DIGITS), unsigned_zero(b->to, ALL_DIGITS),
+                  unit);
     for (size_t i = 0; i < b->special_count; ++i) {
         const fst_special *s = &b->specials[i];
-        (void)fprintf(out, "  %-16s %s = %.12g", fst_special_name(s->type), b->key,
-                      unsigned_zero(s->value, ALL_DIGITS));
+        (void)fprintf(out, "  %-16s %s = %.12g%s", fst_special_name(s->type), b->key,
+                      unsigned_zero(s->value, ALL_DIGITS), unit);
         if (strcmp(b->key, "drive.omega") != 0)
-            (void)fprintf(out, "  omega = %.12g", s->omega);
+            (void)fprintf(out, "  omega = %.12g gamma", s->omega);
         (void)fprintf(out, "  branch %d%s\n", s->branch,
                       s->criticality > 0   ? "  supercritical"
                       : s->criticality < 0 ? "  subcritical"
@@ -189,8 +186,8 @@ static void print_branch(FILE *out, const fst_branch *b)
     }
     (void)fprintf(out, "\nends\n");
     for (size_t i = 0; i < b->end_count; ++i)
-        (void)fprintf(out, "  branch %d at %.10g: %s\n", b->ends[i].branch,
-                      unsigned_zero(b->ends[i].value, ALL_DIGITS), b->ends[i].reason);
+        (void)fprintf(out, "  branch %d at %.10g%s: %s\n", b->ends[i].branch,
+                      unsigned_zero(b->ends[i].value, ALL_DIGITS), unit, b->ends[i].reason);
 }
 
 /* Warn if the bead of either end contradicts any material; one warning is enough. */
@@ -253,8 +250,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command branch_command = {
     .name = "branch",
-    .synopsis =
-        "[SCENE.yaml] [--set KEY=VALUE]... --kind counter|locked|all --over KEY=LO:HI [-o FILE.json] [--json]",
+    .synopsis = "[SCENE.yaml] [--set KEY=VALUE]... --kind KIND --over KEY=LO:HI [-o FILE.json] [--json]",
     .summary = "Follow families of orbits or locked states over a parameter, with their bifurcations",
     .details =
         "counter: the symmetric counter-rotating branch both ways through the range, and the branches that\n"

@@ -27,77 +27,35 @@ fst_status read_size(const char *text, int *width, int *height, fst_error *error
     return FST_OK;
 }
 
-/* The options that are times, lengths, angles and numbers. */
-static fst_status read_values(const arguments *given, fst_camera_options *camera, fst_error *error)
-{
-    enum { TIME = -1 };
-    const struct {
-        const char *name;
-        int unit; /* of fst_unit, or TIME */
-        double *value;
-    } values[] = {
-        {"fps", FST_UNIT_NUMBER, &camera->fps},         {"stored-fps", FST_UNIT_NUMBER, &camera->stored_fps},
-        {"from", FST_UNIT_NUMBER, &camera->from},       {"to", FST_UNIT_NUMBER, &camera->to},
-        {"exposure", TIME, &camera->exposure},          {"readout", TIME, &camera->readout},
-        {"noise", FST_UNIT_NUMBER, &camera->noise},     {"uneven", FST_UNIT_NUMBER, &camera->uneven},
-        {"flicker", FST_UNIT_NUMBER, &camera->flicker}, {"tilt", FST_UNIT_ANGLE, &camera->tilt},
-        {"side", FST_UNIT_ANGLE, &camera->side},        {"distance", FST_UNIT_LENGTH, &camera->distance},
-        {"plate", FST_UNIT_LENGTH, &camera->plate}};
-    for (size_t i = 0; i < sizeof values / sizeof *values; ++i) {
-        char name[32];
-        const char *text = option_value(given, values[i].name);
-        if (!text)
-            continue;
-        (void)snprintf(name, sizeof name, "--%s", values[i].name);
-        fst_status status = FST_OK;
-        if (values[i].unit == TIME)
-            status = read_time(name, text, values[i].value, error);
-        else if (values[i].unit == FST_UNIT_NUMBER)
-            status = read_numbers(name, text, values[i].value, 1, error);
-        else if ((status = fst_parse_value(text, (fst_unit)values[i].unit, values[i].value, error)) != FST_OK)
-            (void)snprintf(error->where, sizeof error->where, "%s", name);
-        if (status != FST_OK)
-            return status;
-    }
-    return FST_OK;
-}
-
-/* The options that are whole numbers. */
-static fst_status read_whole_numbers(const arguments *given, fst_camera_options *camera, fst_error *error)
-{
-    double quality = camera->quality, drop = camera->drop, seed = (double)camera->seed;
-    const struct {
-        const char *name;
-        double *value;
-    } values[] = {{"quality", &quality}, {"drop", &drop}, {"seed", &seed}};
-    for (size_t i = 0; i < sizeof values / sizeof *values; ++i) {
-        char name[32];
-        const char *text = option_value(given, values[i].name);
-        if (!text)
-            continue;
-        (void)snprintf(name, sizeof name, "--%s", values[i].name);
-        const fst_status status = read_numbers(name, text, values[i].value, 1, error);
-        if (status != FST_OK)
-            return status;
-        if (!(*values[i].value >= 0.0 && *values[i].value <= 1e9 &&
-              *values[i].value == floor(*values[i].value)))
-            return fail(error, FST_BAD_INPUT, name, "\"%.40s\" must be a whole number, 0 or more", text);
-    }
-    camera->quality = (int)quality;
-    camera->drop = (int)drop;
-    camera->seed = (uint64_t)seed;
-    return FST_OK;
-}
-
 fst_status read_camera(const arguments *given, fst_camera_options *camera, fst_error *error)
 {
     *camera = fst_default_camera_options();
     const char *size = option_value(given, "size");
+    double quality = camera->quality, drop = camera->drop, seed = (double)camera->seed;
+    const value_option values[] = {{"fps", FST_UNIT_NUMBER, &camera->fps, 0, 0},
+                                   {"stored-fps", FST_UNIT_NUMBER, &camera->stored_fps, 0, 0},
+                                   {"from", FST_UNIT_NUMBER, &camera->from, 0, 0},
+                                   {"to", FST_UNIT_NUMBER, &camera->to, 0, 0},
+                                   {"exposure", VALUE_TIME, &camera->exposure, 0, 0},
+                                   {"readout", VALUE_TIME, &camera->readout, 0, 0},
+                                   {"noise", FST_UNIT_NUMBER, &camera->noise, 0, 0},
+                                   {"uneven", FST_UNIT_NUMBER, &camera->uneven, 0, 0},
+                                   {"flicker", FST_UNIT_NUMBER, &camera->flicker, 0, 0},
+                                   {"tilt", FST_UNIT_ANGLE, &camera->tilt, 0, 0},
+                                   {"side", FST_UNIT_ANGLE, &camera->side, 0, 0},
+                                   {"distance", FST_UNIT_LENGTH, &camera->distance, 0, 0},
+                                   {"plate", FST_UNIT_LENGTH, &camera->plate, 0, 0},
+                                   {"quality", VALUE_WHOLE, &quality, 0, 1e9},
+                                   {"drop", VALUE_WHOLE, &drop, 0, 1e9},
+                                   {"seed", VALUE_WHOLE, &seed, 0, 1e9}};
     fst_status status = size ? read_size(size, &camera->width, &camera->height, error) : FST_OK;
     if (status == FST_OK)
-        status = read_values(given, camera, error);
-    if (status == FST_OK)
-        status = read_whole_numbers(given, camera, error);
+        status = read_values(given, values, sizeof values / sizeof *values, error);
+    if (status == FST_OK) {
+        camera->quality = (int)quality;
+        camera->drop = (int)drop;
+        camera->seed = (uint64_t)seed;
+    }
     return status;
 }
 

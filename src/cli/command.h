@@ -16,9 +16,10 @@ typedef struct command {
     const char *summary;  /* one line */
     const char *details;  /* further help in whole lines, or "" */
     const option *options;
-    int most_operands; /* how many arguments that are no options it takes */
-    int much_output;   /* its standard output may be larger than memory */
-    int has_helpers;   /* it starts other programs, which a signal from the terminal also reaches */
+    int most_operands;   /* how many arguments that are no options it takes */
+    int much_output;     /* its standard output may be larger than memory */
+    int has_helpers;     /* it starts other programs, which a signal from the terminal also reaches */
+    const char *program; /* the program that does it, "festoon-paper"; NULL: this one, by the next line */
     /* Do it.  What is written to `out` reaches standard output only if this returns FST_OK. */
     fst_status (*perform)(const arguments *given, FILE *out, fst_error *error);
 } command;
@@ -45,8 +46,7 @@ const command *find_command(const char *name);
 
 #define UNITS_OPTION                                                                                           \
     {                                                                                                          \
-        "units", '\0', "scaled|lab|si",                                                                        \
-            "the units shown: scaled (l, 1/gamma, B0), of the laboratory (Hz, mm, s, mT), or SI"               \
+        "units", '\0', FST_WORDS(FST_SHOWN), FST_DOCS(FST_SHOWN)                                               \
     }
 
 /* Fill in `error` and return `code`. */
@@ -74,6 +74,11 @@ void tell_written(const char *path, const char *remark);
 enum { ALL_DIGITS = 300 };
 double unsigned_zero(double value, int decimals);
 
+/* The place of an option's value among its names, "one|two|...", which name each a `what`; it stays as it was
+ * where `text` is NULL. */
+fst_status read_choice(const char *option_name, const char *text, const char *what, const char *names,
+                       int *place, fst_error *error);
+
 /* Read --units; as given where it is missing. */
 fst_status read_units(const arguments *given, fst_shown_units *units, fst_error *error);
 
@@ -88,5 +93,18 @@ fst_status read_time(const char *option_name, const char *text, double *seconds,
 /* Read exactly `count` numbers separated by commas. */
 fst_status read_numbers(const char *option_name, const char *text, double *numbers, int count,
                         fst_error *error);
+
+/* Read the options of a table that were given, each one value; the others' values stay. */
+typedef struct value_option {
+    const char *name; /* "fps" */
+    int kind;         /* a fst_unit, or one of the kinds below */
+    double *value;
+    double least, greatest; /* of whole numbers */
+} value_option;
+enum { VALUE_TIME = -1 /* as cameras write it */, VALUE_WHOLE = -2 };
+fst_status read_values(const arguments *given, const value_option *rows, size_t count, fst_error *error);
+
+/* Whether a file's name has this ending, and more before it. */
+int ends_in(const char *path, const char *ending);
 
 #endif

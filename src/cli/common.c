@@ -47,6 +47,12 @@ void tell_written(const char *path, const char *remark)
     (void)fprintf(stderr, "wrote %s%s\n", shown(path, text), remark);
 }
 
+int ends_in(const char *path, const char *ending)
+{
+    const size_t length = strlen(path), wanted = strlen(ending);
+    return length > wanted && strcmp(path + length - wanted, ending) == 0;
+}
+
 double unsigned_zero(double value, int decimals)
 {
     return fabs(value) <= 0.5 * pow(10.0, -decimals) ? 0.0 : value;

@@ -1,13 +1,11 @@
 /* export.c - festoon export: the rows of a sweep as CSV, JSON or HDF5. */
 #include "cli/command.h"
 
+#define FORMAT(NAME, name, doc) {name, '\0', NULL, doc},
 static const option options[] = {
-    {"csv", '\0', NULL, "comma-separated values with a line of names"},
-    {"json", '\0', NULL, "a list of objects with the keys of festoon run"},
-    {"hdf5", '\0', NULL, "one data set a column, into the file of -o"},
-    {"key", '\0', "KEY,...",
-     "of CSV: only the varied parameters and these keys of festoon run, each with its unit "
-     "(mean_r,std_r,regime)"},
+    FST_EXPORTS(FORMAT){"key", '\0', "KEY,...",
+                        "of CSV: only the varied parameters and these keys of festoon run, each with its unit "
+                        "(mean_r,std_r,regime)"},
     UNITS_OPTION,
     {"output", 'o', "FILE", "write to FILE instead of standard output"},
     {NULL, '\0', NULL, NULL},
@@ -28,11 +26,27 @@ static fst_status export_keys(const arguments *given, const char *to, FILE *out,
     return status;
 }
 
+/* Say how many points of an interrupted sweep have a row. */
+static void tell_of_missing(const char *path)
+{
+    char name[SHOWN_SIZE];
+    fst_sweep_table table;
+    if (fst_sweep_read(path, NULL, 0, &table, NULL) != FST_OK)
+        return;
+    if (!table.refine && table.rows < fst_grid_points(table.grid))
+        (void)fprintf(
+            stderr,
+            "festoon: %s: %lld of %lld points have a row, because the sweep was interrupted; the same "
+            "command goes on\n",
+            shown(path, name), (long long)table.rows, (long long)fst_grid_points(table.grid));
+    fst_sweep_table_free(&table);
+}
+
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
-    static const char *const names[] = {"csv", "json", "hdf5"};
+    static const char *const names[] = {FST_EXPORTS(FST_ROW_NAME)};
     int chosen = -1, count = 0;
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < FST_EXPORT_COUNT; ++i)
         if (option_value(given, names[i])) {
             chosen = i;
             ++count;
@@ -49,6 +63,8 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
                                 : fst_sweep_export(operand(given), (fst_export_format)chosen, to, out, error);
     if (status == FST_OK && to)
         tell_written(to, "");
+    if (status == FST_OK)
+        tell_of_missing(operand(given));
     return status;
 }
 
@@ -58,8 +74,9 @@ const command export_command = {
     .summary = "Print the rows of a sweep in the order of its points",
     .details =
         "With --key or --units the CSV has the varied parameters and the keys (regime, mean_r, std_r and\n"
-        "mean_alpha_dot unless told) with their units, as in \"mean_r [mm]\"; without, every column as it is "
-        "kept.\n"
+        "mean_alpha_dot unless told) with their units, as in \"mean_r [mm]\", and the status: done, missing "
+        "where\n"
+        "the sweep has not come yet, or why a run failed; without, every column as it is kept.\n"
         "Each row is compared with its checksum.  Where some are damaged the status is 2, the points that are "
         "lost "
         "are named,\n"

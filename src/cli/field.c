@@ -17,7 +17,7 @@ static const option options[] = {
     {"csv", '\0', "FILE", "write the map of the field to FILE.csv, which magnet.shape: grid reads back"},
     {"radius", '\0', "R", "how far from the axis the map of --csv goes along X and Y: 60 mm unless given"},
     {"spacing", '\0', "D", "from one sample of --csv to the next: 1 mm unless given"},
-    {"map", '\0', "strength|x|y|z|force|load",
+    {"map", '\0', FST_WORDS(FST_FIELDS),
      "what the map shows: |B| (the default), a component of B, or the force or the load of a bead"},
     UNITS_OPTION,
     {NULL, '\0', NULL, NULL},
@@ -163,8 +163,7 @@ static fst_status print_point(const arguments *given, const fst_params *params, 
     double at[2] = {0.0, 0.0};
     fst_model *model = NULL;
     const char *height = option_value(given, "height");
-    fst_status status =
-        isnan(h) ? fst_model_new(params, &model, error) : fst_field_model_new(params, h, &model, error);
+    fst_status status = fst_field_model_new(params, h, &model, error);
     if (status == FST_OK)
         status = read_place(option_value(given, "at"), fst_model_groups(model).length_unit, at, error);
     if (status == FST_OK && !(fabs(at[0]) < farthest && fabs(at[1]) < farthest))
@@ -205,8 +204,7 @@ static fst_status write_map(const arguments *given, const fst_params *params, do
     if (status == FST_OK)
         status = read_metres(given, "spacing", params->magnet_half_length, &spacing, error);
     if (status == FST_OK)
-        status = isnan(height) ? fst_model_new(params, &model, error)
-                               : fst_field_model_new(params, height, &model, error);
+        status = fst_field_model_new(params, height, &model, error);
     if (status == FST_OK) {
         progress_line line;
         const fst_progress progress = {&line, progress_tell};
@@ -218,27 +216,6 @@ static fst_status write_map(const arguments *given, const fst_params *params, do
     if (status == FST_OK)
         tell_written(path, "");
     return status;
-}
-
-static fst_status read_map(const char *text, fst_field_quantity *quantity, fst_error *error)
-{
-    static const char names[] = "strength|x|y|z|force|load";
-    char nearest[16];
-    *quantity = FST_FIELD_STRENGTH;
-    if (!text)
-        return FST_OK;
-    const char *name = names;
-    for (int i = FST_FIELD_STRENGTH; i <= FST_FIELD_LOAD; ++i) {
-        const size_t length = strcspn(name, "|");
-        if (strlen(text) == length && strncmp(text, name, length) == 0) {
-            *quantity = (fst_field_quantity)i;
-            return FST_OK;
-        }
-        name += length + 1;
-    }
-    fst_nearest_name(text, names, nearest, sizeof nearest);
-    return fail(error, FST_BAD_INPUT, "--map", "unknown map \"%.40s\"; the nearest is %s (%s)", text, nearest,
-                names);
 }
 
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
@@ -257,10 +234,13 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (option_value(given, "map") && !figure)
         return fail(error, FST_BAD_INPUT, "--map", "it concerns a map: give -o FIG.svg");
     fst_shown_units units;
-    fst_field_options map = {FST_FIELD_STRENGTH, NAN, FST_SHOWN_SCALED};
+    int quantity = FST_FIELD_STRENGTH;
+    fst_field_options map = fst_default_field_options();
     fst_status status = read_units(given, &units, error);
     if (status == FST_OK)
-        status = read_map(option_value(given, "map"), &map.quantity, error);
+        status =
+            read_choice("--map", option_value(given, "map"), "map", FST_WORDS(FST_FIELDS), &quantity, error);
+    map.quantity = (fst_field_quantity)quantity;
     if (status == FST_OK)
         status = read_scene(given, operand(given), &params, error);
     if (status == FST_OK)
@@ -289,7 +269,7 @@ const command field_command = {
         "Positions without a unit are in l (half length of the magnet's lines); they are in the "
         "magnet's frame, at the height of the\n"
         "bead's centre; fields in B0. With --units lab or si they are in mT or tesla, where magnet.b0 or "
-        "bead.moment tells B0;\n"
+        "bead.moment gives B0;\n"
         "real magnets (magnet.shape: parts) always do. Force and load are those of a bead at rest, its moment "
         "along B;\n"
         "--json then has b_tesla and grad_tesla_per_m beside the scaled ones.\n",

@@ -4,77 +4,50 @@
 #include <stdio.h>
 #include <string.h>
 
+/* What is not called as a field of options is. */
 static const struct {
     const char *field, *option;
 } options[] = {
     {"fst_figure_sweep", "plot"},
     {"fst_grid.axes", "--over"},
-    {"fst_sweep_options.lanes", "--lanes"},
-    {"fst_sweep_options.carry", "--carry"},
-    {"fst_sweep_options.refine", "--refine"},
-    {"fst_sweep_options.refine_by", "--refine-by"},
     {"fst_sweep_options.checkpoint_seconds", "--checkpoint"},
     {"fst_sweep_export.out", "-o"},
     {"fst_sweep_read.keys", "--key"},
     {"fst_figure_sweep.keys", "--key"},
+    {"fst_sweep_export_keys.keys", "--key"},
     {"fst_figure_sweep.units", "--units"},
-    {"fst_figure_branch.observable", "--observable"},
-    {"fst_figure_options.colour", "--colour"},
-    {"fst_figure_options.from", "--from"},
-    {"fst_figure_options.zoom", "--zoom"},
-    {"fst_figure_options.keys", "--key"},
-    {"fst_figure_options.kind", "--kind"},
     {"fst_figure_branch.units", "--units"},
-    {"fst_film_options.width", "--size"},
-    {"fst_film_options.fps", "--fps"},
-    {"fst_film_options.seconds_per_turn", "--turn"},
-    {"fst_film_options.from", "--from"},
-    {"fst_film_options.colour", "--colour"},
-    {"fst_camera_options.width", "--size"},
-    {"fst_camera_options.fps", "--fps"},
-    {"fst_camera_options.stored_fps", "--stored-fps"},
-    {"fst_camera_options.from", "--from"},
-    {"fst_camera_options.exposure", "--exposure"},
-    {"fst_camera_options.readout", "--readout"},
-    {"fst_camera_options.noise", "--noise"},
-    {"fst_camera_options.uneven", "--uneven"},
-    {"fst_camera_options.flicker", "--flicker"},
-    {"fst_camera_options.tilt", "--tilt"},
-    {"fst_camera_options.side", "--side"},
-    {"fst_camera_options.distance", "--distance"},
-    {"fst_camera_options.plate", "--plate"},
-    {"fst_camera_options.quality", "--quality"},
-    {"fst_camera_options.drop", "--drop"},
-    {"fst_film_track_options.fps", "--fps"},
-    {"fst_film_track_options.scale", "--scale"},
-    {"fst_film_track_options.distance", "--distance"},
-    {"fst_paper_options.only", "--only"},
-    {"fst_fit_options.free", "--free"},
-    {"fst_fit_options.given", "--given"},
-    {"fst_fit_options.drive", "--drive"},
-    {"fst_fit", ""},
+    {"fst_figure_branch.observable", "--observable"},
+    {"fst_figure_measurement.compare", "--compare"},
     {"fst_festoons_find.festoons", "--festoons"},
+    {"fst_figure_options.keys", "--key"},
+    {"fst_film_options.width", "--size"},
+    {"fst_film_options.seconds_per_turn", "--turn"},
+    {"fst_camera_options.width", "--size"},
     {"fst_branch_options.key", "--over"},
     {"fst_branch_options.from", "--over"},
-    {"fst_branch_options.tolerance", "--tolerance"},
     {"fst_branch_options.longest_step", "--step"},
     {"fst_branch_options.second_key", "--with"},
     {"fst_branch_options.second_from", "--with"},
     {"fst_branch_options.special", "--follow"},
-    {"fst_track_options.format", "--format"},
-    {"fst_track_options.scale", "--scale"},
-    {"fst_track_options.fps", "--fps"},
-    {"fst_measure_options.drive", "--drive"},
-    {"fst_measure_options.exposure", "--exposure"},
-    {"fst_figure_measurement.compare", "--compare"},
 };
 
-const char *option_of_field(const char *field)
+const char *option_of_field(const char *field, char text[FIELD_SIZE])
 {
+    static const char of_options[] = "_options.";
+    const char *member = strstr(field, of_options);
+    if (strncmp(field, "fst_", 4) != 0)
+        return field;
     for (size_t i = 0; i < sizeof options / sizeof *options; ++i)
         if (strcmp(options[i].field, field) == 0)
             return options[i].option;
-    return field;
+    if (!member) /* the name of a function says nothing to a person; a file may begin so too */
+        return field[strspn(field, "abcdefghijklmnopqrstuvwxyz_")] ? field : "";
+    (void)snprintf(text, FIELD_SIZE, "--%.60s", member + sizeof of_options - 1);
+    for (char *at = text; *at; ++at)
+        if (*at == '_')
+            *at = '-';
+    return text;
 }
 
 static const struct {

@@ -5,8 +5,10 @@
 #include <stddef.h>
 
 /* The library says where a fault lies by the field, "fst_sweep_options.lanes"; a person typed --lanes.  The
- * option of a field; what is no field of the table comes back as it is. */
-const char *option_of_field(const char *field);
+ * option of a field, which may be written to `text`; "" for the name of a function; any other text comes back as it
+ * is. */
+enum { FIELD_SIZE = 64 };
+const char *option_of_field(const char *field, char text[FIELD_SIZE]);
 
 /* The library says what would help by the function, "fst_locked_find() lists the states"; a person types
  * festoon locked.  The sentence with the commands in the place of their functions; `size` is at least 1. */

@@ -68,30 +68,14 @@ static fst_status read_wishes(const arguments *given, wishes *out, fst_fit_optio
     return FST_OK;
 }
 
-static fst_status read_count(const arguments *given, int *count, fst_error *error)
-{
-    const char *text = option_value(given, "bootstrap");
-    double number = 0.0;
-    *count = 0;
-    if (!text)
-        return FST_OK;
-    const fst_status status = read_numbers("--bootstrap", text, &number, 1, error);
-    if (status != FST_OK)
-        return status;
-    if (!(number >= 10 && number <= 100000) || number != floor(number))
-        return fail(error, FST_BAD_INPUT, "--bootstrap", "\"%.40s\" must be a whole number from 10 to 100000",
-                    text);
-    *count = (int)number;
-    return FST_OK;
-}
-
 /* ------------------------------------------------------------------ the report */
 
 /* A value with its error in the unit that people use. */
 static void print_value(FILE *out, double value, double error, fst_unit unit)
 {
-    const double factor = unit == FST_UNIT_LENGTH ? 1e3 : unit == FST_UNIT_MASS ? 1e3 : 1.0;
-    const char *name = unit == FST_UNIT_LENGTH ? "mm" : unit == FST_UNIT_MASS ? "g" : fst_unit_name(unit);
+    int power;
+    const char *name = fst_unit_customary(unit, &power);
+    const double factor = pow(10.0, power);
     const int digits = isfinite(error) && error > 0 ? (int)fmax(0.0, 1.0 - floor(log10(factor * error))) : 6;
     (void)fprintf(out, "%.*f", digits < 12 ? digits : 12, factor * value);
     if (isfinite(error))
@@ -104,9 +88,10 @@ static void print_value(FILE *out, double value, double error, fst_unit unit)
 
 static void print_end(FILE *out, double value, fst_unit unit)
 {
-    const double factor = unit == FST_UNIT_LENGTH || unit == FST_UNIT_MASS ? 1e3 : 1.0;
+    int power;
+    (void)fst_unit_customary(unit, &power);
     if (isfinite(value))
-        (void)fprintf(out, "%.5g", factor * value);
+        (void)fprintf(out, "%.5g", pow(10.0, power) * value);
     else
         (void)fprintf(out, "not found");
 }
@@ -153,24 +138,22 @@ static void print_outliers(FILE *out, const fst_fit *fit)
         (void)fprintf(out, "\nleft out as outliers\n");
     for (size_t i = 0; i < fit->outlier_count; ++i) {
         const fst_fit_outlier *o = &fit->outliers[i];
-        const int is_length = fst_measured_unit(o->what) == FST_UNIT_LENGTH;
-        const double factor = is_length ? 1e3 : 1.0;
+        int power;
+        const char *unit = fst_unit_customary(fst_measured_unit(o->what), &power);
+        const double factor = pow(10.0, power);
         (void)fprintf(
             out,
             "  line %d, column %d (%s): %.6g %s, where %.6g were to be expected: %.1f standard deviations\n",
-            o->line, o->column, fst_measured_name(o->what), factor * o->value, is_length ? "mm" : "Hz",
-            factor * o->expected, fabs(o->deviation));
+            o->line, o->column, fst_measured_name(o->what), factor * o->value, unit, factor * o->expected,
+            fabs(o->deviation));
     }
 }
 
 static void print_choice(FILE *out, const char *key, int index)
 {
-    const char *names = fst_param_at(fst_param_find(key))->names;
-    for (; index > 0 && *names; --index) {
-        names += strcspn(names, "|");
-        names += *names == '|';
-    }
-    (void)fprintf(out, "  %-12.*s", (int)strcspn(names, "|"), names);
+    size_t length;
+    const char *name = fst_name_at(fst_param_at(fst_param_find(key))->names, index, &length);
+    (void)fprintf(out, "  %-12.*s", (int)length, name);
 }
 
 static void print_rivals(FILE *out, const fst_fit *fit)
@@ -220,8 +203,11 @@ static fst_status fit_table(const arguments *given, const char *table, const fst
     fst_fit_options how = fst_default_fit_options();
     const char *figure = option_value(given, "output");
     fst_status status = read_wishes(given, &wanted, &how, error);
+    double bootstrap = 0.0;
+    const value_option row = {"bootstrap", VALUE_WHOLE, &bootstrap, 10, 100000};
     if (status == FST_OK)
-        status = read_count(given, &how.bootstrap, error);
+        status = read_values(given, &row, 1, error);
+    how.bootstrap = (int)bootstrap;
     if (status == FST_OK)
         status = fst_points_read(table, &points, error);
     if (status != FST_OK)
@@ -272,18 +258,12 @@ static fst_status read_exposure(const char *text, fst_fit_options *how, fst_erro
 static fst_status read_track_wishes(const arguments *given, fst_fit_options *how, fst_track_options *file,
                                     fst_error *error)
 {
-    const char *drive = option_value(given, "drive"), *exposure = option_value(given, "exposure");
-    const char *fps = option_value(given, "fps"), *scale = option_value(given, "scale");
-    fst_status status = FST_OK;
-    if (drive && (status = fst_parse_value(drive, FST_UNIT_FREQUENCY, &how->drive, error)) != FST_OK)
-        return fail(error, status, "--drive", "\"%.40s\" must be a frequency such as 10.7Hz", drive);
-    if (exposure && (status = read_exposure(exposure, how, error)) != FST_OK)
-        return status;
-    if (fps && (status = read_numbers("--fps", fps, &file->fps, 1, error)) != FST_OK)
-        return status;
-    if (scale && (status = fst_parse_value(scale, FST_UNIT_LENGTH, &file->scale, error)) != FST_OK)
-        return fail(error, status, "--scale", "\"%.40s\" must be a length such as 0.123mm", scale);
-    return FST_OK;
+    const char *exposure = option_value(given, "exposure");
+    const value_option rows[] = {{"drive", FST_UNIT_FREQUENCY, &how->drive, 0, 0},
+                                 {"fps", FST_UNIT_NUMBER, &file->fps, 0, 0},
+                                 {"scale", FST_UNIT_LENGTH, &file->scale, 0, 0}};
+    const fst_status status = exposure ? read_exposure(exposure, how, error) : FST_OK;
+    return status == FST_OK ? read_values(given, rows, sizeof rows / sizeof *rows, error) : status;
 }
 
 static fst_status fit_film(const arguments *given, const fst_params *params, FILE *out, fst_error *error)
@@ -326,18 +306,13 @@ static fst_status fit_film(const arguments *given, const fst_params *params, FIL
     return status;
 }
 
-static int is_scene(const char *path)
-{
-    const char *ending = strrchr(path, '.');
-    return ending && (strcmp(ending, ".yaml") == 0 || strcmp(ending, ".yml") == 0);
-}
-
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     const char *table = NULL, *scene = NULL;
     fst_params params;
     for (int i = 0; i < given->operand_count; ++i) {
-        const char **place = is_scene(given->operands[i]) ? &scene : &table;
+        const char **place =
+            ends_in(given->operands[i], ".yaml") || ends_in(given->operands[i], ".yml") ? &scene : &table;
         if (*place)
             return fail(error, FST_BAD_INPUT, given->operands[i], "there is a %s already",
                         place == &scene ? "scene" : "table");

@@ -36,9 +36,33 @@ static void print_help(FILE *out)
         "Status: 0 done; 1 the computation failed; 2 bad usage, scene or input file; 130 interrupted.\n");
 }
 
+/* Print words, those that do not fit below the first; the first line has begun and is `column` letters long. */
+static void print_wrapped(FILE *out, const char *text, int column, int indent)
+{
+    enum { WIDTH = 110 };
+    for (int first = 1; *text; first = 0) {
+        const int length = (int)strcspn(text, " \n");
+        if (!first && column + 1 + length > WIDTH) {
+            (void)fprintf(out, "\n%*s", indent, "");
+            column = indent;
+        } else if (!first) {
+            (void)fputc(' ', out);
+            ++column;
+        }
+        (void)fprintf(out, "%.*s", length, text);
+        column += length;
+        text += length;
+        text += strspn(text, " \n");
+    }
+    (void)fputc('\n', out);
+}
+
 void print_command_help(FILE *out, const command *shown)
 {
-    (void)fprintf(out, "usage: festoon %s %s\n\n%s.\n", shown->name, shown->synopsis, shown->summary);
+    enum { OPTION_COLUMN = 31 };
+    const int named = fprintf(out, "usage: festoon %s ", shown->name);
+    print_wrapped(out, shown->synopsis, named, (int)strlen("usage: festoon "));
+    (void)fprintf(out, "\n%s.\n", shown->summary);
     if (shown->details[0])
         (void)fprintf(out, "\n%s", shown->details);
     (void)fprintf(out, "\noptions:\n");
@@ -48,22 +72,23 @@ void print_command_help(FILE *out, const command *shown)
                        row->letter ? row->letter : ' ', row->letter ? ", " : "", row->name,
                        row->value ? row->value : "");
         if (strlen(words) > 28)
-            (void)fprintf(out, "  %s\n  %-28s %s\n", words, "", row->help);
+            (void)fprintf(out, "  %s\n  %-28s ", words, "");
         else
-            (void)fprintf(out, "  %-28s %s\n", words, row->help);
+            (void)fprintf(out, "  %-28s ", words);
+        print_wrapped(out, row->help, OPTION_COLUMN, OPTION_COLUMN);
     }
     (void)fprintf(out, "  %-28s %s\n", " --help", "this text");
 }
 
 fst_status unknown_command(const char *name, fst_error *error)
 {
-    char names[512] = "help|completion|--help|--version", nearest[32];
+    char names[512] = "help|completion|--help|--version", suggestion[FST_SUGGESTION_SIZE];
     for (const command *const *row = all_commands; *row; ++row) {
         size_t used = strlen(names);
         (void)snprintf(names + used, sizeof names - used, "|%s", (*row)->name);
     }
-    fst_nearest_name(name, names, nearest, sizeof nearest);
-    return fail(error, FST_BAD_INPUT, "", "unknown command \"%.60s\"; the nearest is %s", name, nearest);
+    return fail(error, FST_BAD_INPUT, "", "unknown command \"%.60s\"; %s", name,
+                fst_suggest_name(name, names, suggestion));
 }
 
 fst_status help(int count, char **words, FILE *out, fst_error *error)

@@ -54,19 +54,16 @@ static fst_status read_scale(const char *text, fst_track_options *how, char unit
 static fst_status read_options(const arguments *given, fst_track_options *how, fst_measure_options *what,
                                char unit[FST_LENGTH_UNIT_SIZE], fst_error *error)
 {
-    const char *fps = option_value(given, "fps");
-    const char *scale = option_value(given, "scale"), *exposure = option_value(given, "exposure");
+    const char *scale = option_value(given, "scale");
     *how = fst_default_track_options();
     *what = fst_default_measure_options();
     how->format = option_value(given, "format");
     how->name = option_value(given, "track");
-    fst_status status = FST_OK;
-    if (fps)
-        status = read_numbers("--fps", fps, &how->fps, 1, error);
+    const value_option rows[] = {{"fps", FST_UNIT_NUMBER, &how->fps, 0, 0},
+                                 {"exposure", VALUE_TIME, &what->exposure, 0, 0}};
+    fst_status status = read_values(given, rows, sizeof rows / sizeof *rows, error);
     if (status == FST_OK && scale)
         status = read_scale(scale, how, unit, error);
-    if (status == FST_OK && exposure)
-        status = read_time("--exposure", exposure, &what->exposure, error);
     return status;
 }
 
@@ -145,12 +142,6 @@ static fst_status take_point(job *j, int index, const fst_measurement *m, fst_er
     return FST_OK;
 }
 
-static int ends_in(const char *path, const char *ending)
-{
-    const size_t length = path ? strlen(path) : 0, wanted = strlen(ending);
-    return length > wanted && strcmp(path + length - wanted, ending) == 0;
-}
-
 static fst_status print_result(const job *j, int index, const fst_measurement *m, fst_error *error)
 {
     const int several = j->given->operand_count > 1;
@@ -212,7 +203,7 @@ static fst_status measure_track(job *j, int index, fst_error *error)
         status = print_result(j, index, &measured, error);
     if (status == FST_OK && option_value(j->given, "figure"))
         status = draw_figure(j, &track, &measured, error);
-    if (status == FST_OK && ends_in(to, ".csv"))
+    if (status == FST_OK && to)
         status = take_point(j, index, &measured, error);
     free(understood);
     fst_track_free(&track);

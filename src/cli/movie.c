@@ -25,21 +25,15 @@ static fst_status read_film(const arguments *given, fst_film_options *film, fst_
     *film = fst_default_film_options();
     film->colour = option_value(given, "colour");
     const char *size = option_value(given, "size");
-    const struct {
-        const char *name;
-        double *value;
-    } numbers[] = {
-        {"fps", &film->fps}, {"turn", &film->seconds_per_turn}, {"from", &film->from}, {"to", &film->to}};
+    const value_option rows[] = {{"fps", FST_UNIT_NUMBER, &film->fps, 0, 0},
+                                 {"turn", FST_UNIT_NUMBER, &film->seconds_per_turn, 0, 0},
+                                 {"from", FST_UNIT_NUMBER, &film->from, 0, 0},
+                                 {"to", FST_UNIT_NUMBER, &film->to, 0, 0}};
     fst_status status = read_units(given, &film->units, error);
     if (status == FST_OK && size)
         status = read_size(size, &film->width, &film->height, error);
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0] && status == FST_OK; ++i) {
-        char name[16];
-        (void)snprintf(name, sizeof name, "--%s", numbers[i].name);
-        const char *text = option_value(given, numbers[i].name);
-        if (text)
-            status = read_numbers(name, text, numbers[i].value, 1, error);
-    }
+    if (status == FST_OK)
+        status = read_values(given, rows, sizeof rows / sizeof *rows, error);
     return status;
 }
 

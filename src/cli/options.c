@@ -34,7 +34,7 @@ static const char *parameter_named(const char *name)
 
 static fst_status unknown_option(const option *table, const char *word, fst_error *error)
 {
-    char names[512] = "--help", nearest[48];
+    char names[1024] = "--help", suggestion[FST_SUGGESTION_SIZE];
     char written[64];
     (void)snprintf(written, sizeof written, "%.*s", (int)strcspn(word, "="), word);
     const char *meant = word[1] == '-' && find_long(table, "set", 3) ? parameter_named(written + 2) : NULL;
@@ -45,8 +45,8 @@ static fst_status unknown_option(const option *table, const char *word, fst_erro
         size_t used = strlen(names);
         (void)snprintf(names + used, sizeof names - used, "|--%s", table->name);
     }
-    fst_nearest_name(written, names, nearest, sizeof nearest);
-    return fail(error, FST_BAD_INPUT, "", "unknown option %s; the nearest is %s", written, nearest);
+    return fail(error, FST_BAD_INPUT, "", "unknown option %s; %s", written,
+                fst_suggest_name(written, names, suggestion));
 }
 
 /* Whether `word` is an option of the table: then it is not the value of another one. */

@@ -29,8 +29,7 @@ typedef struct arguments {
 } arguments;
 
 /* Read words[0..count) by `table`.  A value may begin with a minus.  Only --set, --over and --given may be
- * repeated.
- * FST_BAD_INPUT: unknown option (the sentence names the nearest), missing or superfluous value, too many
+ * repeated.  FST_BAD_INPUT: unknown option (the sentence names the nearest), missing or superfluous value, too many
  * operands. */
 fst_status read_arguments(const option *table, int most_operands, int count, char **words, arguments *given,
                           fst_error *error);

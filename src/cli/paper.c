@@ -1,8 +1,5 @@
-/* paper.c - festoon paper: the published results beside those of this program. */
+/* paper.c - festoon paper: the published results beside those of this program; paper/ does it. */
 #include "cli/command.h"
-#include "cli/terminal.h"
-
-#include <stdlib.h>
 
 static const option options[] = {
     {"output", 'o', "DIR", "the directory for paper.json, the figures and report.html; made if missing"},
@@ -17,84 +14,6 @@ static const option options[] = {
     {NULL, '\0', NULL, NULL},
 };
 
-static fst_status list_statements(FILE *out, fst_error *error)
-{
-    char *text = fst_paper_statements_text();
-    if (!text)
-        return fail(error, FST_NO_MEMORY, "", "no memory for the list");
-    (void)fputs(text, out);
-    free(text);
-    return FST_OK;
-}
-
-static fst_status map_dry_friction(const arguments *given, fst_error *error)
-{
-    static const char *const others[] = {"reduced", "films", "only", "starts"};
-    const char *directory = option_value(given, "output");
-    for (size_t i = 0; i < sizeof others / sizeof others[0]; ++i)
-        if (option_value(given, others[i]))
-            return fail(error, FST_BAD_INPUT, "--dry-maps", "it makes the maps alone: leave --%s away",
-                        others[i]);
-    if (!directory)
-        return fail(error, FST_BAD_INPUT, "", "say where the maps go: -o DIR");
-    progress_line line;
-    const fst_progress progress = {&line, progress_tell};
-    progress_begin(&line);
-    const fst_status status = fst_paper_dry_maps(directory, &progress, error);
-    progress_end(&line);
-    char text[SHOWN_SIZE];
-    if (status == FST_OK)
-        tell_written(directory, "/dry-maps.md");
-    else if (status == FST_INTERRUPTED)
-        (void)fprintf(stderr, "%s keeps what was done; the same command goes on\n", shown(directory, text));
-    return status;
-}
-
-static fst_status perform(const arguments *given, FILE *out, fst_error *error)
-{
-    if (option_value(given, "statements"))
-        return list_statements(out, error);
-    if (option_value(given, "dry-maps"))
-        return map_dry_friction(given, error);
-    const char *directory = option_value(given, "output"), *only = option_value(given, "only");
-    if (only && (directory || option_value(given, "films")))
-        return fail(error, FST_BAD_INPUT, "--only", "it writes no files: leave -o and --films away");
-    if (!directory && !only)
-        return fail(error, FST_BAD_INPUT, "", "say where the results go: -o DIR");
-    progress_line line;
-    const fst_progress progress = {&line, progress_tell};
-    fst_paper_options paper = fst_default_paper_options();
-    paper.reduced = option_value(given, "reduced") != NULL;
-    paper.films = option_value(given, "films") != NULL;
-    const char *starts = option_value(given, "starts");
-    double count = 0.0;
-    if (starts) {
-        fst_status read = read_numbers("--starts", starts, &count, 1, error);
-        if (read == FST_OK && !(count >= 1.0 && count <= 1e6 && count == floor(count)))
-            read = fail(error, FST_BAD_INPUT, "--starts", "a whole number from 1 to 1000000");
-        if (read != FST_OK)
-            return read;
-    }
-    paper.starts = (int)count;
-    progress_begin(&line);
-    paper.only = only;
-    paper.progress = &progress;
-    char *summary = NULL;
-    paper.summary = &summary;
-    fst_status status = fst_paper(directory, &paper, error);
-    progress_end(&line);
-    if (status == FST_OK && summary)
-        (void)fputs(summary, out);
-    free(summary);
-    if (status == FST_OK && directory)
-        tell_written(directory, "/report.html");
-    char text[SHOWN_SIZE];
-    if (status == FST_INTERRUPTED && directory)
-        (void)fprintf(stderr, "%s/report.html has what was done until then, marked incomplete\n",
-                      shown(directory, text));
-    return status;
-}
-
 const command paper_command = {
     .name = "paper",
     .synopsis = "-o DIR [--reduced] [--films] [--starts N] | --dry-maps -o DIR | --only ID | --statements",
@@ -102,5 +21,5 @@ const command paper_command = {
     .details = "",
     .options = options,
     .has_helpers = 1,
-    .perform = perform,
+    .program = "festoon-paper",
 };

@@ -4,21 +4,14 @@
 
 #include "cli/command.h"
 
-static const struct {
-    const char *name;
-    fst_figure_kind kind;
-} kinds[] = {
-    {"path", FST_FIGURE_PATH}, {"local-n", FST_FIGURE_LOCAL_N}, {"radius-field", FST_FIGURE_RADIUS_FIELD},
-    {"time", FST_FIGURE_TIME}, {"section", FST_FIGURE_SECTION}, {"ramp", FST_FIGURE_RAMP},
-};
-#define KIND_NAMES "path|local-n|radius-field|time|section|ramp"
-
 static const option options[] = {
     {"output", 'o', "FIG", "the figure: FIG.svg, .pdf or .png; script and data are left beside it"},
-    {"kind", '\0', KIND_NAMES,
+    {"kind", '\0', FST_WORDS(FST_FIGURES),
      "of a trajectory: path (of the bead in the laboratory), local-n (of the moment in the local frame),\n"
      "radius-field (r and |B| against Phi), time (columns against time), section (Poincare section: one\n"
-     "column against another where Phi passes 90 degrees) or ramp (columns against the drive of a ramp)"},
+     "column against another where Phi passes 90 degrees) or ramp (columns against the drive of a ramp, for "
+     "which\n"
+     "it is the kind without this option)"},
     {"key", '\0', "KEY,...",
      "of a sweep: the keys of festoon run to draw (regime: a map of regimes); of the kinds time, section and\n"
      "ramp: the columns of the trajectory (r,n_z)"},
@@ -40,22 +33,9 @@ static const option options[] = {
     {NULL, '\0', NULL, NULL},
 };
 
-static fst_status read_kind(const char *word, fst_figure_kind *kind, fst_error *error)
-{
-    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; ++i)
-        if (strcmp(kinds[i].name, word) == 0) {
-            *kind = kinds[i].kind;
-            return FST_OK;
-        }
-    char nearest[32];
-    fst_nearest_name(word, KIND_NAMES, nearest, sizeof nearest);
-    return fail(error, FST_BAD_INPUT, "--kind", "unknown kind \"%.60s\"; the nearest is %s (kinds: %s)", word,
-                nearest, KIND_NAMES);
-}
-
 static fst_status read_colour(const char *word, const char **colour, fst_error *error)
 {
-    char names[1024] = "", nearest[32];
+    char names[1024] = "", suggestion[FST_SUGGESTION_SIZE];
     for (int i = 0; i < fst_column_count(); ++i) {
         const char *name = fst_column_at(i)->name;
         if (strcmp(name, word) == 0) {
@@ -65,16 +45,16 @@ static fst_status read_colour(const char *word, const char **colour, fst_error *
         size_t used = strlen(names);
         (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "", name);
     }
-    fst_nearest_name(word, names, nearest, sizeof nearest);
-    return fail(error, FST_BAD_INPUT, "--colour", "unknown column \"%.60s\"; the nearest is %s (columns: %s)",
-                word, nearest, names);
+    return fail(error, FST_BAD_INPUT, "--colour", "unknown column \"%.60s\"; %s", word,
+                fst_suggest_name(word, names, suggestion));
 }
 
 static fst_status read_figure(const arguments *given, fst_figure_options *figure, fst_error *error)
 {
     *figure = fst_default_figure_options();
     const char *kind = option_value(given, "kind"), *colour = option_value(given, "colour");
-    const char *from = option_value(given, "from"), *to = option_value(given, "to");
+    const value_option rows[] = {{"from", FST_UNIT_NUMBER, &figure->from, 0, 0},
+                                 {"to", FST_UNIT_NUMBER, &figure->to, 0, 0}};
     const char *zoom = option_value(given, "zoom");
     int with = option_value(given, "arrows") != NULL, without = option_value(given, "no-arrows") != NULL;
     if (with && without)
@@ -82,14 +62,14 @@ static fst_status read_figure(const arguments *given, fst_figure_options *figure
     if (with || without)
         figure->arrows = with;
     figure->inset = option_value(given, "inset") != NULL;
-    fst_status status = kind ? read_kind(kind, &figure->kind, error) : FST_OK;
+    int place = (int)figure->kind;
+    fst_status status = read_choice("--kind", kind, "kind", FST_WORDS(FST_FIGURES), &place, error);
+    figure->kind = (fst_figure_kind)place;
     if (status == FST_OK && colour)
         status = read_colour(colour, &figure->colour, error);
-    if (status == FST_OK && from)
-        status = read_numbers("--from", from, &figure->from, 1, error);
-    if (status == FST_OK && to)
-        status = read_numbers("--to", to, &figure->to, 1, error);
-    if (status == FST_OK && from && to && !(figure->from < figure->to))
+    if (status == FST_OK)
+        status = read_values(given, rows, sizeof rows / sizeof *rows, error);
+    if (status == FST_OK && isfinite(figure->from) && isfinite(figure->to) && !(figure->from < figure->to))
         status = fail(error, FST_BAD_INPUT, "--to", "it must be greater than --from");
     if (status == FST_OK && zoom)
         status = read_numbers("--zoom", zoom, figure->zoom, 4, error);
@@ -112,12 +92,6 @@ static fst_status read_columns(const arguments *given, fst_figure_options *figur
     for (int i = 0; i < count && status == FST_OK; ++i)
         figure->keys[i] = keys[i];
     return status;
-}
-
-static int ends_in(const char *path, const char *ending)
-{
-    const size_t length = strlen(path), wanted = strlen(ending);
-    return length > wanted && strcmp(path + length - wanted, ending) == 0;
 }
 
 static fst_status plot_branch(const arguments *given, const char *path, const char *to, fst_error *error)
@@ -212,6 +186,8 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         status = fst_trajectory_read(path, &table, error);
     if (status != FST_OK)
         return status;
+    if (!option_value(given, "kind") && !figure.colour && !figure.inset && isnan(figure.zoom[0]))
+        figure.kind = fst_figure_kind_of(&table);
     status = fst_figure_trajectory(&table, to, &figure, error);
     if (status == FST_OK)
         tell_written(to, table.complete ? "" : " (of an interrupted run)");

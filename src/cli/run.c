@@ -12,7 +12,7 @@ static const option options[] = {
     JSON_OPTION,
     {"output", 'o', "FILE", "write the trajectory to FILE.h5 (HDF5) or FILE.csv"},
     {"csv", '\0', "FILE", "write the trajectory to FILE.csv too"},
-    {"units", '\0', "scaled|lab|si",
+    {"units", '\0', FST_WORDS(FST_SHOWN),
      "the units of --csv (or of -o FILE.csv alone): scaled (l, 1/gamma, B0), which festoon plot reads; or, "
      "for\n"
      "other programs, those of the laboratory (mm, s, mm/s, mT where B0 is known, mN, mW), or SI. The report "
@@ -119,11 +119,9 @@ static fst_status read_ramp(const arguments *given, double gamma, fst_run_option
         status = read_ramp_end(colon + 1, scaled, gamma, &run->ramp_to, error);
     if (status != FST_OK || !points)
         return status;
-    double count;
-    status = read_numbers("--ramp-points", points, &count, 1, error);
-    if (status == FST_OK && !(count >= 1 && count <= 100000 && count == floor(count)))
-        status = fail(error, FST_BAD_INPUT, "--ramp-points", "\"%.40s\" must be an integer from 1 to 100000",
-                      points);
+    double count = 0.0;
+    const value_option row = {"ramp-points", VALUE_WHOLE, &count, 1, 100000};
+    status = read_values(given, &row, 1, error);
     if (status == FST_OK)
         run->ramp_points = (int)count;
     return status;

@@ -45,6 +45,9 @@ static void print_end(FILE *out, const fst_groups *groups, const fst_run_result 
 
 static void print_sentence(FILE *out, const fst_groups *groups, const fst_run_result *result)
 {
+#define MEANING(NAME, name, doc, colour) doc,
+    static const char *const meanings[] = {FST_REGIMES(MEANING)};
+#undef MEANING
     switch (result->regime) {
     case FST_REGIME_COUNTER_ROTATING:
         print_rotation(out, groups, result, "counter-rotates", "backwards");
@@ -72,35 +75,24 @@ static void print_sentence(FILE *out, const fst_groups *groups, const fst_run_re
     case FST_REGIME_LIFTED:
         print_end(out, groups, result, "lifted: the bead lost contact with the plate, where this model ends,");
         break;
-    case FST_REGIME_UNDECIDED:
-        (void)fprintf(out, "undecided: the run does not show what the motion is\n");
-        break;
+    default:
+        (void)fprintf(out, "%s: %s\n", fst_regime_name(result->regime), meanings[result->regime]);
     }
     (void)fprintf(out, "  %s\n", result->reason);
 }
 
 /* ---------------------------------------------------------------- the numbers */
 
-/* Where the numbers go, and whether the second column is in SI rather than in the units of a laboratory. */
+/* Where the numbers go, and the units of the second column: those of a laboratory or SI. */
 typedef struct page {
     FILE *out;
-    int si;
+    fst_shown_units units;
+    fst_scales scales;
 } page;
 
-/* The SI unit that a unit of the laboratory is a thousandth of; NULL: it is none of these. */
-static const char *thousand_of(const char *unit)
-{
-    static const char *const pairs[][2] = {{"mm", "m"}, {"mT", "T"}, {"mm/s", "m/s"},
-                                           {"ms", "s"}, {"mW", "W"}, {"mN", "N"}};
-    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; ++i)
-        if (strcmp(pairs[i][0], unit) == 0)
-            return pairs[i][1];
-    return NULL;
-}
-
-/* Print a line with a scaled number, its error bar (NAN: none), and the number in another unit:
- * value * factor. */
-static void print_line(const page *p, const char *name, double value, double bar, const char *scaled_unit,
+/* Print a line with a scaled number, its error bar (NAN: none), and the number in another unit (NULL: there is
+ * none): value * factor. */
+static void print_both(const page *p, const char *name, double value, double bar, const char *scaled_unit,
                        double factor, const char *unit)
 {
     char scaled[96];
@@ -111,84 +103,93 @@ static void print_line(const page *p, const char *name, double value, double bar
         (void)snprintf(scaled, sizeof scaled, "%.8g +- %.1g %s", value, bar, scaled_unit);
     else
         (void)snprintf(scaled, sizeof scaled, "%.8g %s", value, scaled_unit);
-    const char *whole = unit && p->si ? thousand_of(unit) : NULL;
     if (unit)
-        (void)fprintf(p->out, "  %-32s %-36s %.6g %s\n", name, scaled, value * factor * (whole ? 1e-3 : 1.0),
-                      whole ? whole : unit);
+        (void)fprintf(p->out, "  %-32s %-36s %.6g %s\n", name, scaled, value * factor, unit);
     else
         (void)fprintf(p->out, "  %-32s %s\n", name, scaled);
 }
 
-static void print_motion(const page *p, const fst_groups *g, const fst_run_result *s)
+static void print_line(const page *p, const char *name, double value, double bar, const char *scaled_unit)
 {
-    const double mm = 1e3 * g->length_unit, hertz = 1.0 / (TWO_PI * g->time_unit);
-    print_line(p, "drive omega", s->omega, NAN, "gamma", hertz, "Hz");
-    print_line(p, "distance from the axis <r>", s->mean_r, s->mean_r_error, "l", mm, "mm");
-    print_line(p, "  its variation delta r", s->std_r, NAN, "l", mm, "mm");
-    print_line(p, "  least", s->min_r, NAN, "l", mm, "mm");
-    print_line(p, "  greatest", s->max_r, NAN, "l", mm, "mm");
-    print_line(p, "bead's circling <alpha'>", s->mean_alpha_dot, s->mean_alpha_dot_error, "gamma", hertz, "Hz");
-    print_line(p, "moment's turning <phi'>", s->mean_phi_dot, NAN, "gamma", hertz, "Hz");
-    print_line(p, "mean n_z", s->mean_nz, s->mean_nz_error, "", 1, NULL);
-    print_line(p, "festoons", s->festoons, NAN, "", 1, NULL);
-    print_line(p, "one whole turn of Phi", s->period, NAN, "1/gamma", 1e3 * g->time_unit, "ms");
-    print_line(p, "angle(n, B), greatest", s->max_angle_deg, NAN, "degrees", 1, NULL);
-    print_line(p, "tilt of the plane of n", s->tilt_deg, NAN, "degrees", 1, NULL);
-    print_line(p, "largest Lyapunov exponent", s->largest_exponent, s->largest_exponent_error, "gamma",
-               1.0 / g->time_unit, "1/s");
+    const char *unit;
+    const double factor = fst_unit_shown(scaled_unit, p->units, &p->scales, &unit);
+    print_both(p, name, value, bar, scaled_unit, factor, unit == scaled_unit ? NULL : unit);
 }
 
-/* The scaled unit of power in mW. */
-static double milliwatts(const fst_groups *g)
+/* How fast something turns, which is called `key` in JSON. */
+static void print_turning(const page *p, const char *name, const char *key, double value, double bar)
 {
-    return 1e3 * g->mass * g->length_unit * g->length_unit / pow(g->time_unit, 3);
+    const char *unit;
+    const double factor = fst_number_shown(key, "gamma", p->units, &p->scales, &unit);
+    print_both(p, name, value, bar, "gamma", factor, unit);
+}
+
+/* A load, in weights of the bead. */
+static void print_load(const page *p, const char *name, double weights, const fst_groups *g)
+{
+    const char *unit;
+    const double factor = fst_unit_shown("l gamma^2", p->units, &p->scales, &unit);
+    print_both(p, name, weights, NAN, "weights", g->gravity * factor, unit);
+}
+
+static void print_motion(const page *p, const fst_run_result *s)
+{
+    print_turning(p, "drive omega", "omega", s->omega, NAN);
+    print_line(p, "distance from the axis <r>", s->mean_r, s->mean_r_error, "l");
+    print_line(p, "  its variation delta r", s->std_r, NAN, "l");
+    print_line(p, "  least", s->min_r, NAN, "l");
+    print_line(p, "  greatest", s->max_r, NAN, "l");
+    print_turning(p, "bead's circling <alpha'>", "mean_alpha_dot", s->mean_alpha_dot, s->mean_alpha_dot_error);
+    print_turning(p, "moment's turning <phi'>", "mean_phi_dot", s->mean_phi_dot, NAN);
+    print_line(p, "mean n_z", s->mean_nz, s->mean_nz_error, "");
+    print_line(p, "festoons", s->festoons, NAN, "");
+    print_line(p, "one whole turn of Phi", s->period, NAN, "1/gamma");
+    print_line(p, "angle(n, B), greatest", s->max_angle_deg, NAN, "degrees");
+    print_line(p, "tilt of the plane of n", s->tilt_deg, NAN, "degrees");
+    print_line(p, "largest Lyapunov exponent", s->largest_exponent, s->largest_exponent_error, "gamma");
 }
 
 /* Dry friction: how the contact moves. */
-static void print_contact(const page *p, const fst_groups *g, const fst_run_result *s)
+static void print_contact(const page *p, const fst_run_result *s)
 {
-    const double power = milliwatts(g);
     if (s->never_slips)
         (void)fprintf(p->out, "  the contact never slips: the motion that is reached depends on the start\n");
-    print_line(p, "contact at rest, share of time", s->sticking, NAN, "", 1, NULL);
-    print_line(p, "  slips that end, a turn of Phi", s->captures_per_return, NAN, "", 1, NULL);
-    print_line(p, "viscous rate of the same power", s->effective_rate, NAN, "gamma", 1.0 / g->time_unit, "1/s");
-    print_line(p, "power lost to rolling", s->mean_rolling_power, NAN, "l^2 gamma^3", power, "mW");
-    print_line(p, "power lost to pivoting", s->mean_pivoting_power, NAN, "l^2 gamma^3", power, "mW");
+    print_line(p, "contact at rest, share of time", s->sticking, NAN, "");
+    print_line(p, "  slips that end, a turn of Phi", s->captures_per_return, NAN, "");
+    print_line(p, "viscous rate of the same power", s->effective_rate, NAN, "gamma");
+    print_line(p, "power lost to rolling", s->mean_rolling_power, NAN, "l^2 gamma^3");
+    print_line(p, "power lost to pivoting", s->mean_pivoting_power, NAN, "l^2 gamma^3");
     if (s->flying > 0) {
-        print_line(p, "in the air, share of time", s->flying, NAN, "", 1, NULL);
-        print_line(p, "  impacts, a turn of Phi", s->impacts_per_return, NAN, "", 1, NULL);
-        print_line(p, "power lost to impacts", s->mean_impact_power, NAN, "l^2 gamma^3", power, "mW");
+        print_line(p, "in the air, share of time", s->flying, NAN, "");
+        print_line(p, "  impacts, a turn of Phi", s->impacts_per_return, NAN, "");
+        print_line(p, "power lost to impacts", s->mean_impact_power, NAN, "l^2 gamma^3");
     }
 }
 
 static void print_forces(const page *p, const fst_groups *g, const fst_run_result *s)
 {
-    const int tesla = isfinite(g->field_unit);
-    const double mt = tesla ? 1e3 * g->field_unit : 1.0;
-    const double speed = 1e3 * g->length_unit / g->time_unit;
-    const double power = milliwatts(g);
-    const double weight = 1e3 * g->mass * g->gravity * g->length_unit / (g->time_unit * g->time_unit);
-    print_line(p, "field <|B|>", s->mean_b, NAN, "B0", mt, tesla ? "mT" : NULL);
-    print_line(p, "  its variation", s->std_b, NAN, "B0", mt, tesla ? "mT" : NULL);
-    print_line(p, "  least", s->min_b, NAN, "B0", mt, tesla ? "mT" : NULL);
-    print_line(p, "  greatest", s->max_b, NAN, "B0", mt, tesla ? "mT" : NULL);
-    print_line(p, "slip of the contact, rms", s->rms_slip, NAN, "l gamma", speed, "mm/s");
-    print_line(p, "load on the plate", s->mean_load_weights, NAN, "weights", weight, "mN");
-    print_line(p, "  least", s->min_load_weights, NAN, "weights", weight, "mN");
-    print_line(p, "  greatest", s->max_load_weights, NAN, "weights", weight, "mN");
+    print_line(p, "field <|B|>", s->mean_b, NAN, "B0");
+    print_line(p, "  its variation", s->std_b, NAN, "B0");
+    print_line(p, "  least", s->min_b, NAN, "B0");
+    print_line(p, "  greatest", s->max_b, NAN, "B0");
+    print_line(p, "slip of the contact, rms", s->rms_slip, NAN, "l gamma");
+    print_load(p, "load on the plate", s->mean_load_weights, g);
+    print_load(p, "  least", s->min_load_weights, g);
+    print_load(p, "  greatest", s->max_load_weights, g);
     if (s->never_slips >= 0)
-        print_contact(p, g, s);
+        print_contact(p, s);
     else
-        print_line(p, "friction rate if it were dry", s->dry_friction_rate, NAN, "1/s", 1, NULL);
-    print_line(p, "power lost to friction", s->mean_friction_power, NAN, "l^2 gamma^3", power, "mW");
-    print_line(p, "power of the drive", s->mean_drive_power, NAN, "l^2 gamma^3", power, "mW");
-    print_line(p, "energy residual", s->energy_residual, NAN, "", 1, NULL);
+        print_line(p, "friction rate if it were dry", s->dry_friction_rate, NAN, "1/s");
+    print_line(p, "power lost to friction", s->mean_friction_power, NAN, "l^2 gamma^3");
+    print_line(p, "power of the drive", s->mean_drive_power, NAN, "l^2 gamma^3");
+    print_line(p, "energy residual", s->energy_residual, NAN, "");
 }
 
 void print_run(FILE *out, const fst_groups *groups, const fst_run_result *result, int si)
 {
-    const page p = {out, si};
+    const page p = {out,
+                    si ? FST_SHOWN_SI : FST_SHOWN_LAB,
+                    {groups->length_unit, groups->time_unit, groups->mass, groups->field_unit}};
     const char *dynamics = fst_dynamics_name(groups->dynamics);
     print_sentence(out, groups, result);
     (void)fprintf(out, "\n  dynamics %s, symmetry %s, %.6g turns of the magnet", dynamics,
@@ -197,7 +198,7 @@ void print_run(FILE *out, const fst_groups *groups, const fst_run_result *result
     if (isfinite(result->window_periods))
         (void)fprintf(out, ", means over the last %.6g", result->window_periods);
     (void)fprintf(out, "\n");
-    print_motion(&p, groups, result);
+    print_motion(&p, result);
     print_forces(&p, groups, result);
     (void)fprintf(out, "\nScaled groups:\n");
     print_groups(out, groups);

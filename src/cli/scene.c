@@ -46,6 +46,25 @@ static fst_status read_scene_from_input(fst_params *params, fst_error *error)
     return status;
 }
 
+/* A scene that says nothing is the default one; somebody who meant another file should know. */
+static void warn_of_empty(const char *path)
+{
+    char line[512], name[SHOWN_SIZE];
+    int says_something = 0;
+    FILE *file = fopen(path, "r");
+    while (file && !says_something && fgets(line, sizeof line, file)) {
+        const char first = line[strspn(line, " \t\r\n")];
+        says_something = first && first != '#';
+    }
+    if (!file || fclose(file) != 0 || says_something)
+        return;
+    (void)fprintf(
+        stderr,
+        "festoon: warning: %s is an empty scene: it has no key, so every parameter keeps its default, the "
+        "bead of the paper at 10.7 Hz\n",
+        shown(path, name));
+}
+
 /* The map of the scene, which lives until the command is done. */
 static fst_status read_map(const arguments *given, fst_params *params, fst_error *error)
 {
@@ -78,6 +97,8 @@ fst_status read_scene(const arguments *given, const char *path, fst_params *para
             strcmp(path, "-") == 0 ? read_scene_from_input(params, error) : fst_scene_read(path, params, error);
         if (status != FST_OK)
             return status;
+        if (strcmp(path, "-") != 0)
+            warn_of_empty(path);
     }
     for (int i = 0; i < given->option_count; ++i) {
         if (strcmp(given->options[i].row->name, "set") != 0)

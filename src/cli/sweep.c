@@ -10,7 +10,7 @@ static const option options[] = {
     {"over", '\0', "KEY=VALUES",
      "vary KEY: LO:HI:COUNT, LO:HI:COUNT:log, A,B,C or LO:HI:random:COUNT (again, for up to 8)"},
     {"output", 'o', "FILE.db", "the database; the same command again goes on with it"},
-    {"carry", '\0', "up|down",
+    {"carry", '\0', FST_WORDS(FST_CARRIES),
      "start each point from the end of its neighbour along the first --over (hysteresis)"},
     {"refine", '\0', "N",
      "compute every 2^N-th value of each LO:HI:COUNT first, then N times between where the regime changes"},
@@ -20,7 +20,8 @@ static const option options[] = {
     {"seed", '\0', "N", "seed of the random values (1)"},
     {"portable", '\0', NULL,
      "as --arithmetic portable: the bits of festoon run, the same on every machine; slower"},
-    {"arithmetic", '\0', "portable|avx2|avx512", "kind of arithmetic (the fastest that this processor has)"},
+    {"arithmetic", '\0', FST_WORDS(FST_ARITHMETICS),
+     "kind of arithmetic (the fastest that this processor has)"},
     {"lanes", '\0', "N",
      "runs side by side on a thread: 1, 4 or 8 (what suits the processor); no row depends on it"},
     {"checkpoint", '\0', "SECONDS",
@@ -28,38 +29,14 @@ static const option options[] = {
     {NULL, '\0', NULL, NULL},
 };
 
-static fst_status read_whole(const arguments *given, const char *name, double least, double greatest,
-                             double *value, fst_error *error)
-{
-    const char *text = option_value(given, name);
-    if (!text)
-        return FST_OK;
-    char shown[32];
-    (void)snprintf(shown, sizeof shown, "--%s", name);
-    fst_status status = read_numbers(shown, text, value, 1, error);
-    if (status == FST_OK && !(*value >= least && *value <= greatest && *value == floor(*value)))
-        status = fail(error, FST_BAD_INPUT, shown, "\"%.40s\" must be an integer from %.0f to %.0f", text,
-                      least, greatest);
-    return status;
-}
-
-static fst_status read_arithmetic(const char *word, fst_arithmetic *arithmetic, fst_error *error)
-{
-    for (int i = FST_ARITHMETIC_PORTABLE; i <= FST_ARITHMETIC_AVX512; ++i)
-        if (strcmp(fst_arithmetic_name((fst_arithmetic)i), word) == 0) {
-            *arithmetic = (fst_arithmetic)i;
-            return FST_OK;
-        }
-    return fail(error, FST_BAD_INPUT, "--arithmetic", "\"%.40s\" must be portable, avx2 or avx512", word);
-}
-
 /* --refine N and --refine-by KEY[:STEP]; the key is copied to `key`. */
 static fst_status read_refining(const arguments *given, char key[64], fst_sweep_options *sweep,
                                 fst_error *error)
 {
     const char *by = option_value(given, "refine-by");
     double levels = 0;
-    fst_status status = read_whole(given, "refine", 1, 28, &levels, error);
+    const value_option row = {"refine", VALUE_WHOLE, &levels, 1, 28};
+    fst_status status = read_values(given, &row, 1, error);
     sweep->refine = (int)levels;
     if (status != FST_OK || !by)
         return status;
@@ -85,17 +62,14 @@ static fst_status read_sweep(const arguments *given, const char **axes, char key
             axes[sweep->axis_count++] = given->options[i].value;
     sweep->axes = axes;
     double threads = 0, seed = 1, lanes = 0;
-    fst_status status = read_whole(given, "threads", 1, 256, &threads, error);
-    if (status == FST_OK)
-        status = read_whole(given, "seed", 0, 9007199254740991.0, &seed, error);
-    if (status == FST_OK)
-        status = read_whole(given, "lanes", 1, 8, &lanes, error);
-    const char *checkpoint = option_value(given, "checkpoint");
-    if (status == FST_OK && checkpoint)
-        status = read_numbers("--checkpoint", checkpoint, &sweep->checkpoint_seconds, 1, error);
+    const value_option rows[] = {{"threads", VALUE_WHOLE, &threads, 1, 256},
+                                 {"seed", VALUE_WHOLE, &seed, 0, 9007199254740991.0},
+                                 {"lanes", VALUE_WHOLE, &lanes, 1, 8},
+                                 {"checkpoint", FST_UNIT_NUMBER, &sweep->checkpoint_seconds, 0, 0}};
+    fst_status status = read_values(given, rows, sizeof rows / sizeof *rows, error);
     if (status == FST_OK && !(sweep->checkpoint_seconds > 0 && sweep->checkpoint_seconds <= 1e9))
         status = fail(error, FST_BAD_INPUT, "--checkpoint", "\"%.40s\" must be positive seconds, at most 1e9",
-                      checkpoint);
+                      option_value(given, "checkpoint"));
     sweep->threads = (int)threads;
     sweep->seed = (uint64_t)seed;
     sweep->lanes = (int)lanes;
@@ -104,14 +78,15 @@ static fst_status read_sweep(const arguments *given, const char **axes, char key
     if (option_value(given, "portable"))
         sweep->arithmetic = FST_ARITHMETIC_PORTABLE;
     const char *arithmetic = option_value(given, "arithmetic");
-    if (status == FST_OK && arithmetic)
-        status = read_arithmetic(arithmetic, &sweep->arithmetic, error);
-    const char *carry = option_value(given, "carry");
-    if (status == FST_OK && carry) {
-        if (strcmp(carry, "up") != 0 && strcmp(carry, "down") != 0)
-            return fail(error, FST_BAD_INPUT, "--carry", "\"%.40s\" must be up or down", carry);
-        sweep->carry = strcmp(carry, "up") == 0 ? FST_CARRY_UP : FST_CARRY_DOWN;
-    }
+    int kind = (int)sweep->arithmetic, carry = FST_CARRY_NO;
+    if (status == FST_OK)
+        status =
+            read_choice("--arithmetic", arithmetic, "arithmetic", FST_WORDS(FST_ARITHMETICS), &kind, error);
+    if (status == FST_OK)
+        status = read_choice("--carry", option_value(given, "carry"), "direction", FST_WORDS(FST_CARRIES),
+                             &carry, error);
+    sweep->arithmetic = (fst_arithmetic)kind;
+    sweep->carry = (fst_carry)carry;
     return status;
 }
 
@@ -123,6 +98,7 @@ typedef struct display {
     fst_sweep_counts counts;  /* the library keeps them up to date */
     fst_params contradiction; /* a point whose bead cannot be made of any material */
     int to_warn;
+    int can_draw; /* it varies so few parameters that festoon plot shows it */
 } display;
 
 /* Warn once; of several ranks only rank 0 does. */
@@ -133,18 +109,29 @@ static void warn_once(display *shown, int rank)
     shown->to_warn = 0;
 }
 
-/* Look for a contradiction at both ends of the grid; one warning is enough. */
-static void look_for_contradiction(display *shown, const fst_params *params, const fst_sweep_options *sweep)
+/* Look over the grid: for a contradiction, of which one warning is enough, and whether a figure can show it. */
+static void look_over(display *shown, const fst_params *params, const fst_sweep_options *sweep)
 {
+    enum { LOOKS = 255 };
     char sentence[512];
+    int64_t varied = 0, stride = 0;
     fst_grid *grid = NULL;
     fst_error ignored;
     if (fst_grid_new(params, sweep->axes, sweep->axis_count, sweep->seed, &grid, &ignored) != FST_OK)
         return; /* the sweep itself will say why */
-    const int64_t ends[2] = {0, fst_grid_points(grid) - 1};
-    for (int i = 0; i < 2 && !shown->to_warn; ++i)
-        shown->to_warn = fst_grid_params(grid, ends[i], &shown->contradiction, &ignored) == FST_OK &&
+    const int64_t last = fst_grid_points(grid) - 1, looks = last < LOOKS ? last : LOOKS;
+    for (int64_t i = 0; i <= looks && !shown->to_warn; ++i)
+        shown->to_warn = fst_grid_params(grid, looks > 0 ? i * last / looks : 0, &shown->contradiction,
+                                         &ignored) == FST_OK &&
                          fst_bead_contradiction(&shown->contradiction, sentence, sizeof sentence) != 0;
+    shown->can_draw = 1;
+    for (int a = 0; a < fst_grid_axis_count(grid); ++a)
+        if (fst_grid_axis_points(grid, a) > 1) {
+            varied += 1;
+            shown->can_draw &= fst_grid_axis_stride(grid, a) != stride; /* random values are drawn together */
+            stride = fst_grid_axis_stride(grid, a);
+        }
+    shown->can_draw &= varied == 1 || varied == 2;
     fst_grid_free(grid);
 }
 
@@ -169,7 +156,8 @@ static fst_status show(void *user, double fraction, const char *part, fst_error 
                               rate > 0 ? (double)(p->expected - p->computed) / rate : INFINITY, what, error);
 }
 
-static void print_sweep(FILE *out, const char *path, const fst_sweep_counts *p, int refined, int json)
+static void print_sweep(FILE *out, const char *path, const fst_sweep_counts *p, int refined, int can_draw,
+                        int json)
 {
     if (json) {
         (void)fprintf(
@@ -193,9 +181,10 @@ static void print_sweep(FILE *out, const char *path, const fst_sweep_counts *p, 
         (void)fprintf(out, ", %lld of them new", (long long)p->added);
     if (p->failed > 0)
         (void)fprintf(out, "; %lld runs failed, their rows say why", (long long)p->failed);
-    (void)fprintf(out,
-                  " (%.3g s)\nfestoon export %s --csv prints the rows, festoon plot %s -o FIG.svg draws them\n",
-                  p->seconds, path, path);
+    (void)fprintf(out, " (%.3g s)\nfestoon export %s --csv prints the rows", p->seconds, path);
+    if (can_draw)
+        (void)fprintf(out, ", festoon plot %s -o FIG.svg draws them", path);
+    (void)fputc('\n', out);
 }
 
 static void tell_of_repair(const char *path, const fst_sweep_counts *counts)
@@ -229,7 +218,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (status != FST_OK)
         return status;
     display shown = {.refined = sweep.refine > 0};
-    look_for_contradiction(&shown, &params, &sweep);
+    look_over(&shown, &params, &sweep);
     progress_begin(&shown.line);
     const fst_progress progress = {&shown, show};
     sweep.progress = &progress;
@@ -245,6 +234,10 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         return FST_OK;
     if (shown.counts.repaired)
         tell_of_repair(path, &shown.counts);
+    if (shown.counts.begun_anew > 0)
+        (void)fprintf(stderr,
+                      "festoon: %s: what was saved of unfinished runs was damaged: %lld are made anew\n", path,
+                      (long long)shown.counts.begun_anew);
     if (status == FST_INTERRUPTED)
         return fail(error, FST_INTERRUPTED, path,
                     "interrupted with %lld of %s%lld points done; the same command goes on",
@@ -253,7 +246,8 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (status != FST_OK)
         return status;
     tell_of_undefined(path, sweep.refine_by, &shown.counts);
-    print_sweep(out, path, &shown.counts, sweep.refine > 0, option_value(given, "json") != NULL);
+    print_sweep(out, path, &shown.counts, sweep.refine > 0, shown.can_draw,
+                option_value(given, "json") != NULL);
     return FST_OK;
 }
 

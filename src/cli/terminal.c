@@ -1,4 +1,6 @@
 /* terminal.c - signals, the progress line, and writing standard output completely or with a message. */
+/* sigaltstack() is in POSIX with its extension. */
+#define _XOPEN_SOURCE 700
 #include "cli/terminal.h"
 
 #include <errno.h>
@@ -62,6 +64,48 @@ void terminal_prepare(void)
     (void)sigemptyset(&ignore.sa_mask);
     (void)sigaction(SIGPIPE, &ignore, NULL);
     (void)sigaction(SIGXFSZ, &ignore, NULL);
+}
+
+/* ---------------------------------------------------------------- libraries that break down */
+
+/* Where memory runs out, some libraries end the program (HDF5, the run-time library of Fortran) or crash
+ * (HDF5, fontconfig), and nothing that they answer tells it before.  Then this is the last that is done. */
+static void break_down(int unused)
+{
+    static const char sentence[] =
+        "festoon: a library that this command uses broke down, mostly because memory ran out\n";
+    (void)unused;
+    (void)!write(STDERR_FILENO, sentence, sizeof sentence - 1);
+    _exit(1);
+}
+
+static atomic_int at_work;
+
+static void look_at_end(void)
+{
+    if (atomic_load(&at_work))
+        break_down(0);
+}
+
+void terminal_work_begins(void)
+{
+    atomic_store(&at_work, atexit(look_at_end) == 0);
+#ifdef NDEBUG /* a build for debugging shows where it breaks */
+    static const int numbers[] = {SIGSEGV, SIGBUS, SIGABRT};
+    static char stack[16384];
+    struct sigaction action = {.sa_handler = break_down, .sa_flags = (int)(SA_ONSTACK | SA_RESETHAND)}, before;
+    const stack_t aside = {.ss_sp = stack, .ss_size = sizeof stack};
+    (void)sigemptyset(&action.sa_mask);
+    (void)sigaltstack(&aside, NULL);
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; ++i)
+        if (sigaction(numbers[i], NULL, &before) == 0 && before.sa_handler == SIG_DFL)
+            (void)sigaction(numbers[i], &action, NULL);
+#endif
+}
+
+void terminal_work_ends(void)
+{
+    atomic_store(&at_work, 0);
 }
 
 int interrupted(void)

@@ -9,6 +9,10 @@
 /* Prepare the standard streams and signals.  Call it before any file is opened. */
 void terminal_prepare(void);
 
+/* Between these calls a library that ends the program, or crashes, leaves a sentence and status 1. */
+void terminal_work_begins(void);
+void terminal_work_ends(void);
+
 /* Whether SIGINT, SIGTERM or SIGHUP came. */
 int interrupted(void);
 

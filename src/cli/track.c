@@ -24,14 +24,9 @@ static fst_status read_options(const arguments *given, fst_film_track_options *t
     track->scale = option_value(given, "scale");
     track->overlay = option_value(given, "overlay");
     track->picture = option_value(given, "picture");
-    const char *fps = option_value(given, "fps"), *distance = option_value(given, "distance");
-    fst_status status = fps ? read_numbers("--fps", fps, &track->fps, 1, error) : FST_OK;
-    if (status == FST_OK && distance) {
-        status = fst_parse_value(distance, FST_UNIT_LENGTH, &track->distance, error);
-        if (status != FST_OK)
-            (void)snprintf(error->where, sizeof error->where, "--distance");
-    }
-    return status;
+    const value_option rows[] = {{"fps", FST_UNIT_NUMBER, &track->fps, 0, 0},
+                                 {"distance", FST_UNIT_LENGTH, &track->distance, 0, 0}};
+    return read_values(given, rows, sizeof rows / sizeof *rows, error);
 }
 
 static void print_report(const fst_film_track_report *r, int by_bead, FILE *out)

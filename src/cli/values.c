@@ -1,25 +1,28 @@
-/* values.c - values of options that several commands have: units, names of columns. */
+/* values.c - values of options that several commands have: units, names of columns, numbers, times. */
 #include <string.h>
 
 #include "cli/command.h"
 
+fst_status read_choice(const char *option_name, const char *text, const char *what, const char *names,
+                       int *place, fst_error *error)
+{
+    char suggestion[FST_SUGGESTION_SIZE];
+    const int found = text ? fst_name_place(text, names) : *place;
+    if (found >= 0) {
+        *place = found;
+        return FST_OK;
+    }
+    return fail(error, FST_BAD_INPUT, option_name, "unknown %s \"%.60s\"; %s", what, text,
+                fst_suggest_name(text, names, suggestion));
+}
+
 fst_status read_units(const arguments *given, fst_shown_units *units, fst_error *error)
 {
-    static const char *const names[] = {"scaled", "lab", "si"};
-    static const fst_shown_units values[] = {FST_SHOWN_SCALED, FST_SHOWN_LAB, FST_SHOWN_SI};
-    const char *text = option_value(given, "units");
-    char nearest[16];
-    *units = FST_SHOWN_AS_GIVEN;
-    if (!text)
-        return FST_OK;
-    for (int i = 0; i < 3; ++i)
-        if (strcmp(text, names[i]) == 0) {
-            *units = values[i];
-            return FST_OK;
-        }
-    fst_nearest_name(text, "scaled|lab|si", nearest, sizeof nearest);
-    return fail(error, FST_BAD_INPUT, "--units", "unknown units \"%.40s\"; the nearest is %s (scaled, lab, si)",
-                text, nearest);
+    int place = FST_SHOWN_AS_GIVEN;
+    const fst_status status =
+        read_choice("--units", option_value(given, "units"), "units", FST_WORDS(FST_SHOWN), &place, error);
+    *units = (fst_shown_units)place;
+    return status;
 }
 
 fst_status read_keys(const char *text, char words[KEYS_SIZE], const char *keys[KEY_LIMIT], int *count,
@@ -67,4 +70,39 @@ fst_status read_time(const char *name, const char *text, double *seconds, fst_er
         return FST_OK;
     }
     return fail(error, FST_BAD_INPUT, name, "\"%.40s\" is no time: write it as 2ms, 0.002s or 1/500s", text);
+}
+
+static fst_status read_value(const value_option *row, const char *name, const char *text, fst_error *error)
+{
+    if (row->kind == VALUE_TIME)
+        return read_time(name, text, row->value, error);
+    if (row->kind != VALUE_WHOLE && row->kind != FST_UNIT_NUMBER) {
+        const fst_status status = fst_parse_value(text, (fst_unit)row->kind, row->value, error);
+        if (status != FST_OK)
+            (void)snprintf(error->where, sizeof error->where, "%s", name);
+        return status;
+    }
+    double number;
+    const fst_status status = read_numbers(name, text, &number, 1, error);
+    if (status != FST_OK)
+        return status;
+    if (row->kind == VALUE_WHOLE &&
+        !(number >= row->least && number <= row->greatest && number == floor(number)))
+        return fail(error, FST_BAD_INPUT, name, "\"%.40s\" must be an integer from %.0f to %.0f", text,
+                    row->least, row->greatest);
+    *row->value = number;
+    return FST_OK;
+}
+
+fst_status read_values(const arguments *given, const value_option *rows, size_t count, fst_error *error)
+{
+    fst_status status = FST_OK;
+    for (size_t i = 0; i < count && status == FST_OK; ++i) {
+        const char *text = option_value(given, rows[i].name);
+        char name[32];
+        (void)snprintf(name, sizeof name, "--%s", rows[i].name);
+        if (text)
+            status = read_value(&rows[i], name, text, error);
+    }
+    return status;
 }

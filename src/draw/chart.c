@@ -1,9 +1,10 @@
-/* chart.c - writing a chart (chart.h) as a gnuplot script with its data. */
+/* chart.c - a chart (festoon/charts.h): its memory, and how it is written as a gnuplot script with its data. */
 #include "draw/chart.h"
 
 #include "draw/legend.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum {
@@ -14,7 +15,9 @@ enum {
     RIGHT_ORDINATE = 64,
     SECOND_ABSCISSA = 60,
     FOOT = 54,
-    GAP = 12, /* between panels */
+    GAP = 20,           /* between panels: the lowest number of one must not touch the highest of the next */
+    INSET_CLEAR = 14,   /* of the panel's tics */
+    INSET_NUMBERS = 40, /* beside an inset */
     USUAL_HEIGHT = 190,
     LONE_HEIGHT = 270
 };
@@ -47,6 +50,9 @@ static void write_blocks(fst_figure_file *figure, const char *name, int number, 
             /* gnuplot breaks a line at an empty line, but steps over a missing value. */
             if (is_shown(curve, i)) {
                 (void)fprintf(figure->data, "%.9g %.9g", curve->x[i], curve->y[i]);
+                if (curve->x_spread)
+                    (void)fprintf(figure->data, " %.9g %.9g", curve->x[i] - curve->x_spread[i],
+                                  curve->x[i] + curve->x_spread[i]);
                 if (curve->spread)
                     (void)fprintf(figure->data, " %.9g %.9g", curve->y[i] - curve->spread[i],
                                   curve->y[i] + curve->spread[i]);
@@ -56,7 +62,10 @@ static void write_blocks(fst_figure_file *figure, const char *name, int number, 
             }
         }
         if (curve->count == 0 || !is_shown(curve, 0))
-            (void)fputs(curve->spread ? "nan nan nan nan\n" : "nan nan\n", figure->data);
+            (void)fputs(curve->x_spread ? "nan nan nan nan nan nan\n"
+                        : curve->spread ? "nan nan nan nan\n"
+                                        : "nan nan\n",
+                        figure->data);
     }
 }
 
@@ -219,15 +228,15 @@ static void style_of(const fst_chart_curve *curve, char *text, size_t size)
 static void write_curves(fst_figure_file *figure, const char *name, int number, const fst_chart_curve *curves,
                          int count)
 {
-    static const char *const columns[] = {"1:2", "1:2:3:4", "1:3:4"};
+    static const char *const columns[] = {"1:2", "1:2:3:4", "1:3:4", "1:2:3:4:5:6"};
     for (int c = 0; c < count; ++c) {
         const fst_chart_curve *curve = &curves[c];
-        const int shape = !curve->spread ? 0 : curve->style == FST_CURVE_BAND ? 2 : 1;
+        const int shape = !curve->spread ? 0 : curve->style == FST_CURVE_BAND ? 2 : curve->x_spread ? 3 : 1;
         char style[96];
         style_of(curve, style, sizeof style);
-        (void)fprintf(figure->script, "%sdata index '%s%d-curve%d' using %s axes %s with %s notitle",
+        (void)fprintf(figure->script, "%sdata index '%s%d-curve%d' using %s axes %s with %s%s notitle",
                       c ? ", \\\n     " : "plot ", name, number, c + 1, columns[shape],
-                      curve->right ? "x1y2" : "x1y1", style);
+                      curve->right ? "x1y2" : "x1y1", shape == 3 ? "x" : "", style);
     }
     (void)fputc('\n', figure->script);
 }
@@ -297,32 +306,50 @@ static void write_range(FILE *script, const char *axis, double low, double high)
     (void)(isfinite(high) ? fprintf(script, "%.9g]\n", high) : fputs("*]\n", script));
 }
 
-/* An inset has room for four numbers on an axis. */
-static void write_sparse_tics(FILE *script, const fst_chart_inset *inset, int abscissa)
+/* An axis of an inset, so many pixels long, has room for a few numbers. */
+static void write_sparse_tics(FILE *script, const fst_chart_inset *inset, int abscissa, double pixels)
 {
+    const double parts = fmin(3.0, pixels / (abscissa ? 40.0 : 27.0));
     double low = abscissa ? inset->x_low : inset->low, high = abscissa ? inset->x_high : inset->high;
     range_of(inset->curves, inset->curve_count, abscissa, 0, &low, &high);
     if (high > low)
-        (void)fprintf(script, "set %ctics %.9g\n", abscissa ? 'x' : 'y', fst_round_step((high - low) / 3.0));
+        (void)fprintf(script, "set %ctics %.9g\n", abscissa ? 'x' : 'y', fst_round_step((high - low) / parts));
     else
         (void)fprintf(script, "set %ctics auto\n", abscissa ? 'x' : 'y');
 }
 
+/* Where an inset lies in pixels, and the white ground below it and its numbers.  Its numbers stay clear of the
+ * tics of the panel about it. */
+static void place_inset(const fst_chart_inset *inset, const double panel[4], double frame[4], double ground[4])
+{
+    const double wide = panel[1] - panel[0], tall = panel[3] - panel[2];
+    const double below = inset->x_label ? 38.0 : 20.0;
+    frame[0] = panel[0] + wide * inset->left;
+    frame[1] = fmin(panel[0] + wide * inset->right, panel[1] - INSET_CLEAR - 10.0);
+    frame[2] = panel[3] - tall * inset->top;
+    frame[3] = fmin(panel[3] - tall * inset->bottom, panel[3] - INSET_CLEAR - below);
+    ground[0] = frame[0] - INSET_NUMBERS;
+    ground[1] = frame[1] + 10.0;
+    ground[2] = frame[2] - (inset->label ? 20.0 : 6.0);
+    ground[3] = frame[3] + below;
+}
+
 /* Draw the inset of a panel whose frame is given in pixels.  Its labels stand above and below it. */
 static void write_inset(fst_figure_file *figure, const fst_chart_inset *inset, int number,
-                        const double frame[4], int height)
+                        const double panel[4], int height)
 {
     FILE *script = figure->script;
-    const double wide = frame[1] - frame[0], tall = frame[3] - frame[2];
-    (void)fputs("unset arrow\nunset label\nunset key\nunset x2tics\nunset y2tics\n"
-                "set object 99 rectangle from graph 0,0 to graph 1,1 behind fc rgb 'white' fs solid noborder\n"
-                "set tics font ',11'\nset format x '%g'\n",
-                script);
-    write_sparse_tics(script, inset, 1);
-    write_sparse_tics(script, inset, 0);
-    fst_figure_place(figure, height,
-                     (const double[4]){frame[0] + wide * inset->left, frame[0] + wide * inset->right,
-                                       frame[3] - tall * inset->top, frame[3] - tall * inset->bottom});
+    double frame[4], ground[4];
+    place_inset(inset, panel, frame, ground);
+    (void)fprintf(script,
+                  "unset arrow\nunset label\nunset key\nunset x2tics\nunset y2tics\n"
+                  "set object 99 rectangle from screen %.5f,%.5f to screen %.5f,%.5f behind noclip fc rgb "
+                  "'white' fs solid noborder\nset tics font ',11' scale 0.5\nset format x '%%g'\n",
+                  ground[0] / FST_FIGURE_WIDTH, 1.0 - ground[3] / height, ground[1] / FST_FIGURE_WIDTH,
+                  1.0 - ground[2] / height);
+    write_sparse_tics(script, inset, 1, frame[1] - frame[0]);
+    write_sparse_tics(script, inset, 0, frame[3] - frame[2]);
+    fst_figure_place(figure, height, frame);
     write_range(script, "x", inset->x_low, inset->x_high);
     write_range(script, "y", inset->low, inset->high);
     if (inset->label) {
@@ -342,7 +369,7 @@ static void write_inset(fst_figure_file *figure, const fst_chart_inset *inset, i
                       inset->labels[i].y);
     }
     write_curves(figure, "inset", number, inset->curves, inset->curve_count);
-    (void)fputs("unset label\nunset object 99\nset tics font ',12'\nset xtics auto\n", script);
+    (void)fputs("unset label\nunset object 99\nset tics font ',12' scale 1\nset xtics auto\n", script);
 }
 
 static void write_panel(fst_figure_file *figure, const fst_chart *chart, const layout *l, int p)
@@ -371,7 +398,7 @@ static int number_letters(const fst_chart_panel *panel)
     if (!(high > low) || !isfinite(greatest))
         return 0;
     if (greatest < 1e-3)
-        return 6; /* a digit times a power of ten */
+        return 7 + (low < 0.0); /* a digit times a power of ten */
     const double step = fst_round_step((high - low) / 6.0);
     const int whole = greatest >= 10.0 ? 1 + (int)floor(log10(greatest)) : 1;
     const int decimals = step < 1.0 ? 1 + (int)ceil(-log10(step) - 1e-9) : 0;
@@ -421,4 +448,52 @@ fst_status fst_figure_chart(const char *out, const fst_chart *chart, fst_error *
         write_panel(&figure, chart, &l, p);
     fst_legend_write(&figure, &l.legend, l.height);
     return fst_figure_finish(&figure, error);
+}
+
+/* ------------------------------------------------------------------ memory */
+
+typedef struct block {
+    struct block *next;
+    double room[]; /* of the alignment of a number */
+} block;
+
+fst_chart *fst_chart_new(void)
+{
+    return calloc(1, sizeof(fst_chart));
+}
+
+void *fst_keep(void **memory, size_t size)
+{
+    block *made = calloc(1, sizeof *made + size);
+    if (!made)
+        return NULL;
+    made->next = *memory;
+    *memory = made;
+    return made->room;
+}
+
+void fst_keep_free(void *memory)
+{
+    for (block *each = memory, *next; each; each = next) {
+        next = each->next;
+        free(each);
+    }
+}
+
+void *fst_chart_keep(fst_chart *chart, size_t size)
+{
+    return fst_keep(&chart->memory, size);
+}
+
+const char *fst_chart_text(fst_chart *chart, const char *text)
+{
+    const size_t size = strlen(text) + 1;
+    char *copy = fst_chart_keep(chart, size);
+    return copy ? memcpy(copy, text, size) : NULL;
+}
+
+void fst_chart_free(fst_chart *chart)
+{
+    fst_keep_free(chart ? chart->memory : NULL);
+    free(chart);
 }

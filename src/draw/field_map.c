@@ -1,20 +1,51 @@
 /* field_map.c - what a map of the magnet's field shows: |B|, a component, or the force and load of a bead. */
-#include "draw/field_map.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
+#include "base/error.h"
+#include "draw/chart.h"
 #include "draw/poles.h"
 
-double fst_drawn_map_x(const fst_drawn_map *map, int column)
+#include <math.h>
+#include <string.h>
+
+enum {
+    COLUMNS = 181,
+    ROWS = 145,
+    ARROW_STEP = 12, /* places from one arrow to the next */
+    ARROWS = (COLUMNS / ARROW_STEP + 1) * (ROWS / ARROW_STEP + 1),
+    LEVELS = 8, /* about as many lines of equal value */
+    OPTIONS_COOKIE = 0x4649454c
+};
+
+/* Of the map's width: between two values of lines, and from a value to the next arrow. */
+static const double LABEL_GAP = 0.035, LABEL_CLEAR = 0.026;
+
+/* What each quantity is called: on the scale of colours, and in the title. */
+#define WORDS(NAME, name, title, label) {label, title},
+static const struct {
+    const char *label, *title;
+} words[] = {FST_FIELDS(WORDS)};
+#undef WORDS
+
+/* What is asked of the model. */
+typedef struct survey {
+    fst_model *model;
+    const fst_params *params;
+    fst_groups groups;
+    fst_field_quantity quantity;
+    double half_width, half_height; /* of the map, in l */
+    double length, value;           /* how many of the picture's units make l, and the quantity's scaled unit */
+    char length_unit[16], unit[32]; /* their names */
+    double least, greatest;         /* of the quantity, in the picture's unit */
+    double strongest;               /* of what the arrows show, scaled */
+} survey;
+
+static double x_of(const survey *s, int column)
 {
-    return map->half_width * (2.0 * column / (FST_MAP_COLUMNS - 1) - 1.0);
+    return s->half_width * (2.0 * column / (COLUMNS - 1) - 1.0);
 }
 
-double fst_drawn_map_y(const fst_drawn_map *map, int row)
+static double y_of(const survey *s, int row)
 {
-    return map->half_height * (2.0 * row / (FST_MAP_ROWS - 1) - 1.0);
+    return s->half_height * (2.0 * row / (ROWS - 1) - 1.0);
 }
 
 static double strength(const fst_model *model, double x, double y)
@@ -24,52 +55,70 @@ static double strength(const fst_model *model, double x, double y)
     return sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
 }
 
-int fst_drawn_map_of_bead(const fst_drawn_map *map)
+static int is_of_bead(const survey *s)
 {
-    return map->quantity == FST_FIELD_FORCE || map->quantity == FST_FIELD_LOAD;
+    return s->quantity == FST_FIELD_FORCE || s->quantity == FST_FIELD_LOAD;
 }
 
-static int is_inside(const fst_drawn_map *map, double x, double y)
+static int is_inside(const survey *s, double x, double y)
 {
-    const double l = map->groups.length_unit, place[3] = {l * x, l * y, l * map->groups.h};
-    return map->params->magnet_shape == FST_MAGNET_PARTS && fst_part_touched(map->params, place, 0.0) >= 0;
+    const double l = s->groups.length_unit, place[3] = {l * x, l * y, l * s->groups.h};
+    return s->params->magnet_shape == FST_MAGNET_PARTS && fst_part_touched(s->params, place, 0.0) >= 0;
 }
 
-double fst_drawn_map_value(const fst_drawn_map *map, double x, double y)
+/* The quantity at a place, in the picture's unit; NAN in a part of the magnet. */
+static double value_at(const survey *s, double x, double y)
 {
     double b[3], gradient[3][3], force[3], load;
-    if (is_inside(map, x, y))
+    if (is_inside(s, x, y))
         return NAN;
-    switch (map->quantity) {
+    switch (s->quantity) {
     case FST_FIELD_STRENGTH:
-        return map->value * strength(map->model, x, y);
+        return s->value * strength(s->model, x, y);
     case FST_FIELD_FORCE:
-        fst_field_pull(map->model, x, y, force, &load);
-        return map->value * hypot(force[0], force[1]);
+        fst_field_pull(s->model, x, y, force, &load);
+        return s->value * hypot(force[0], force[1]);
     case FST_FIELD_LOAD:
-        fst_field_pull(map->model, x, y, force, &load);
-        return map->value * load;
+        fst_field_pull(s->model, x, y, force, &load);
+        return s->value * load;
     default:
-        fst_field(map->model, x, y, b, gradient);
-        return map->value * b[map->quantity - FST_FIELD_X];
+        fst_field(s->model, x, y, b, gradient);
+        return s->value * b[s->quantity - FST_FIELD_X];
     }
 }
 
-void fst_drawn_map_arrow(const fst_drawn_map *map, double x, double y, double arrow[2])
+/* What the arrows show: the part of the field in the plane (B0), or of the force (l gamma^2). */
+static void arrow_at(const survey *s, double x, double y, double arrow[2])
 {
     double v[3], gradient[3][3], load;
-    if (fst_drawn_map_of_bead(map))
-        fst_field_pull(map->model, x, y, v, &load);
+    if (is_of_bead(s))
+        fst_field_pull(s->model, x, y, v, &load);
     else
-        fst_field(map->model, x, y, v, gradient);
-    const int nothing = is_inside(map, x, y);
+        fst_field(s->model, x, y, v, gradient);
+    const int nothing = is_inside(s, x, y);
     arrow[0] = nothing ? 0.0 : v[0];
     arrow[1] = nothing ? 0.0 : v[1];
 }
 
-/* ------------------------------------------------------------------ maxima */
+/* ------------------------------------------------------------------ values and maxima */
 
-/* Climb from a map point to the maximum: step along both axes, and halve the step where none leads up. */
+static int put_values(fst_field_picture *picture, survey *s)
+{
+    picture->columns = COLUMNS;
+    picture->rows = ROWS;
+    picture->values = fst_keep(&picture->memory, sizeof(double) * COLUMNS * ROWS);
+    s->least = INFINITY;
+    s->greatest = -INFINITY;
+    for (int i = 0; picture->values && i < COLUMNS * ROWS; ++i) {
+        const double value = value_at(s, x_of(s, i % COLUMNS), y_of(s, i / COLUMNS));
+        picture->values[i] = value;
+        s->least = fmin(s->least, value); /* of NAN the other */
+        s->greatest = fmax(s->greatest, value);
+    }
+    return picture->values != NULL;
+}
+
+/* Climb from a place to the maximum: step along both axes, and halve the step where none leads up. */
 static void climb(const fst_model *model, double step, double place[2])
 {
     double here = strength(model, place[0], place[1]);
@@ -91,73 +140,195 @@ static void climb(const fst_model *model, double step, double place[2])
     }
 }
 
-static void note_maximum(fst_drawn_map *map, int column, int row)
+/* Maxima are found in l. */
+static void note_maximum(fst_field_picture *picture, const survey *s, int column, int row)
 {
-    double place[2] = {fst_drawn_map_x(map, column), fst_drawn_map_y(map, row)};
-    climb(map->model, fst_drawn_map_x(map, 1) - fst_drawn_map_x(map, 0), place);
-    for (int m = 0; m < map->maximum_count; ++m)
-        if (hypot(place[0] - map->maxima[m][0], place[1] - map->maxima[m][1]) < 1e-4)
+    double place[2] = {x_of(s, column), y_of(s, row)};
+    climb(s->model, x_of(s, 1) - x_of(s, 0), place);
+    for (int m = 0; m < picture->maximum_count; ++m)
+        if (hypot(place[0] - picture->maxima[m][0], place[1] - picture->maxima[m][1]) < 1e-4)
             return;
-    map->maxima[map->maximum_count][0] = place[0];
-    map->maxima[map->maximum_count][1] = place[1];
-    ++map->maximum_count;
+    memcpy(picture->maxima[picture->maximum_count++], place, sizeof place);
 }
 
-/* Every map point that is not lower than its eight neighbours leads to a maximum. */
-static void find_maxima(fst_drawn_map *map)
+/* Every place that is not lower than its eight neighbours leads to a maximum. */
+static void find_maxima(fst_field_picture *picture, const survey *s)
 {
-    for (int row = 1; row < FST_MAP_ROWS - 1; ++row)
-        for (int column = 1; column < FST_MAP_COLUMNS - 1 && map->maximum_count < FST_MAP_MAXIMA; ++column) {
-            const double here =
-                fst_drawn_map_value(map, fst_drawn_map_x(map, column), fst_drawn_map_y(map, row));
+    for (int row = 1; row < ROWS - 1; ++row)
+        for (int column = 1; column < COLUMNS - 1 && picture->maximum_count < FST_PICTURE_MAXIMA; ++column) {
+            const double *here = picture->values + row * COLUMNS + column;
             int highest = 1;
             for (int i = 0; i < 9 && highest; ++i)
-                highest = here >= fst_drawn_map_value(map, fst_drawn_map_x(map, column + i % 3 - 1),
-                                                      fst_drawn_map_y(map, row + i / 3 - 1));
+                highest = *here >= here[(i / 3 - 1) * COLUMNS + i % 3 - 1];
             if (highest)
-                note_maximum(map, column, row);
+                note_maximum(picture, s, column, row);
         }
 }
 
-void fst_drawn_map_survey(fst_drawn_map *map)
+static void put_maxima(fst_field_picture *picture, const survey *s)
 {
-    map->least = INFINITY;
-    map->greatest = -INFINITY;
-    for (int row = 0; row < FST_MAP_ROWS; ++row)
-        for (int column = 0; column < FST_MAP_COLUMNS; ++column) {
-            const double value =
-                fst_drawn_map_value(map, fst_drawn_map_x(map, column), fst_drawn_map_y(map, row));
-            map->least = fmin(map->least, value); /* of NAN the other */
-            map->greatest = fmax(map->greatest, value);
-        }
-    if (map->quantity == FST_FIELD_STRENGTH)
-        find_maxima(map);
+    double(*m)[2] = picture->maxima;
+    if (s->quantity == FST_FIELD_STRENGTH)
+        find_maxima(picture, s);
+    for (int i = 0; i < picture->maximum_count; ++i)
+        for (int k = 0; k < 2; ++k)
+            m[i][k] *= s->length;
+    if (picture->maximum_count == 2)
+        (void)snprintf(picture->distance, sizeof picture->distance, "%.3g %s",
+                       hypot(m[0][0] - m[1][0], m[0][1] - m[1][1]), s->length_unit);
 }
 
-/* ------------------------------------------------------------------ making it */
+/* ------------------------------------------------------------------ lines of equal value, arrows */
 
-static void choose_units(fst_drawn_map *map, fst_shown_units units)
+static void put_levels(fst_field_picture *picture, const survey *s, double step, double from)
 {
-    const fst_scales scales = fst_scales_of(map->params);
-    map->length = fst_unit_shown("l", units, &scales, &map->length_unit);
-    map->value = fst_unit_shown(fst_drawn_map_of_bead(map) ? "l gamma^2" : "B0", units, &scales, &map->unit);
-    if (strcmp(map->length_unit, "l") == 0)
-        map->length_unit = "ℓ";
-    if (strcmp(map->unit, "B0") == 0)
-        map->unit = "B_0";
-    if (strcmp(map->unit, "l gamma^2") == 0)
-        map->unit = "ℓγ²";
+    for (double level = step * (floor(from / step) + 1.0);
+         level < s->greatest && picture->level_count < FST_PICTURE_LEVELS; level += step)
+        picture->levels[picture->level_count++] = fabs(level) < 1e-9 * step ? 0.0 : level;
+}
+
+/* Values of lines stand where these pass the column beside a maximum, on which the field falls: between two columns
+ * of arrows, and no closer to the value before than letters are high. */
+static void put_labels(fst_field_picture *picture, const survey *s)
+{
+    enum { STEPS = 2000 };
+    const double peak = picture->maximum_count ? fabs(picture->maxima[0][0]) / s->length : 0.0;
+    const double place = (peak / s->half_width + 1.0) / 2.0 * (COLUMNS - 1) / ARROW_STEP;
+    const double x = x_of(s, ARROW_STEP * (int)(place + 0.5));
+    const double from = s->quantity == FST_FIELD_STRENGTH ? 0.0 : s->least;
+    const double step = fst_round_step((s->greatest - from) / LEVELS);
+    double before = value_at(s, x, 0.0), labelled = -INFINITY;
+    put_levels(picture, s, step, from);
+    for (int i = 1; i <= STEPS && picture->label_count < FST_PICTURE_LEVELS; ++i) {
+        const double y = 0.95 * s->half_height * i / STEPS;
+        const double here = value_at(s, x, y);
+        const double level = step * fmax(floor(before / step), floor(here / step));
+        const int passes = floor(before / step) != floor(here / step) && isfinite(before) && isfinite(here);
+        if (passes && (level > 0.0 || from < 0.0) && y - labelled > LABEL_GAP * 2.0 * s->half_width) {
+            double *to = picture->labels[picture->label_count++];
+            to[0] = s->length * x;
+            to[1] = s->length * y;
+            to[2] = level;
+            labelled = y;
+        }
+        before = here;
+    }
+}
+
+/* Whether an arrow passes a place closer than words may be passed. */
+static int passes(const fst_field_picture *picture, const double arrow[4], double x, double y)
+{
+    const double square = arrow[2] * arrow[2] + arrow[3] * arrow[3], dx = x - arrow[0], dy = y - arrow[1];
+    const double along = square > 0.0 ? fmax(0.0, fmin(1.0, (dx * arrow[2] + dy * arrow[3]) / square)) : 0.0;
+    return hypot(dx - along * arrow[2], dy - along * arrow[3]) <
+           LABEL_CLEAR * (picture->box[1] - picture->box[0]);
+}
+
+/* Whether an arrow would run into the value of a line, or into the distance of the maxima, which stands over the
+ * middle between them and is as wide as three values. */
+static int meets_words(const fst_field_picture *picture, const double arrow[4])
+{
+    const double(*m)[2] = picture->maxima, step = LABEL_GAP * (picture->box[1] - picture->box[0]);
+    int meets = 0;
+    for (int i = 0; i < picture->label_count; ++i)
+        meets = meets || passes(picture, arrow, picture->labels[i][0], picture->labels[i][1]);
+    for (int k = -1; k <= 1 && picture->distance[0]; ++k)
+        meets = meets ||
+                passes(picture, arrow, 0.5 * (m[0][0] + m[1][0]) + k * step, 0.5 * (m[0][1] + m[1][1]) + step);
+    return meets;
+}
+
+/* Arrows of the field, or of the force, in the plane.  Their length goes with the square root of the strength, so
+ * that weak fields show too. */
+static int put_arrows(fst_field_picture *picture, survey *s)
+{
+    const double longest = 1.1 * ARROW_STEP * 2.0 * s->half_width / (COLUMNS - 1);
+    double(*parts)[4] = fst_keep(&picture->memory, ARROWS * sizeof *parts);
+    size_t count = 0;
+    if (!parts)
+        return 0;
+    s->strongest = 0.0;
+    for (int row = ARROW_STEP / 2; row < ROWS; row += ARROW_STEP)
+        for (int column = ARROW_STEP / 2; column < COLUMNS; column += ARROW_STEP) {
+            double *to = parts[count++];
+            to[0] = x_of(s, column);
+            to[1] = y_of(s, row);
+            arrow_at(s, to[0], to[1], to + 2);
+            s->strongest = fmax(s->strongest, hypot(to[2], to[3]));
+        }
+    for (size_t i = 0; i < count; ++i) {
+        const double plane = hypot(parts[i][2], parts[i][3]);
+        const double scale = plane > 0.0 ? longest * sqrt(plane / s->strongest) / plane : 0.0;
+        double *to = parts[picture->arrow_count];
+        const double dx = s->length * scale * parts[i][2], dy = s->length * scale * parts[i][3];
+        to[0] = s->length * parts[i][0] - 0.5 * dx;
+        to[1] = s->length * parts[i][1] - 0.5 * dy;
+        to[2] = dx;
+        to[3] = dy;
+        picture->arrow_count += !meets_words(picture, to);
+    }
+    picture->arrows = &parts[0][0];
+    picture->longest = longest / (2.0 * s->half_width);
+    return 1;
+}
+
+/* ------------------------------------------------------------------ words, colours, the magnet */
+
+static void choose_units(survey *s, fst_shown_units units)
+{
+    const fst_scales scales = fst_scales_of(s->params);
+    const char *name;
+    s->length = fst_unit_shown("l", units, &scales, &name);
+    fst_unit_symbols(name, s->length_unit, sizeof s->length_unit);
+    s->value = fst_unit_shown(is_of_bead(s) ? "l gamma^2" : "B0", units, &scales, &name);
+    fst_unit_symbols(name, s->unit, sizeof s->unit);
+}
+
+static void put_words(fst_field_picture *picture, const survey *s, int other_height)
+{
+    const int bar = s->params->magnet_shape == FST_MAGNET_LINES;
+    const double longest = s->value * s->strongest;
+    if (other_height)
+        (void)snprintf(picture->title, sizeof picture->title, "%s at the height %.4g mm",
+                       words[s->quantity].title, 1e3 * s->groups.h * s->groups.length_unit);
+    else
+        (void)snprintf(picture->title, sizeof picture->title, "%s%s", words[s->quantity].title,
+                       is_of_bead(s) ? "" : " at the height of the bead's centre");
+    (void)snprintf(picture->about, sizeof picture->about, "%s: ℓ = %.4g mm%s",
+                   bar ? "half length of the magnet's lines" : "unit of length", 1e3 * s->groups.length_unit,
+                   is_of_bead(s) ? "; the bead's moment along the field" : "");
+    (void)snprintf(picture->x_label, sizeof picture->x_label, "X (%s)%s", s->length_unit,
+                   bar ? ", along the magnet's lines" : "");
+    (void)snprintf(picture->y_label, sizeof picture->y_label, "Y (%s)", s->length_unit);
+    (void)snprintf(picture->colour_label, sizeof picture->colour_label, "%s (%s)", words[s->quantity].label,
+                   s->unit);
+    (void)snprintf(picture->level_words, sizeof picture->level_words, "lines of equal %s",
+                   words[s->quantity].label);
+    (void)snprintf(picture->arrow_words, sizeof picture->arrow_words,
+                   "%s: this length is %.*g %s, others as its square root",
+                   is_of_bead(s) ? "horizontal force" : "in-plane part of B", longest < 100.0 ? 2 : 3, longest,
+                   s->unit);
+}
+
+/* A component has both signs, and grey is its zero; the load may be of any sign. */
+static void put_colours(fst_field_picture *picture, const survey *s)
+{
+    const int component = s->quantity >= FST_FIELD_X && s->quantity <= FST_FIELD_Z;
+    const double most = fmax(fabs(s->least), fabs(s->greatest));
+    picture->colours = component ? (fst_colour_range){FST_PALETTE_DIVERGING, -most, most}
+                                 : (fst_colour_range){FST_PALETTE_MAP, s->least, s->greatest};
 }
 
 /* The map shows the poles and the corners of the magnet, with room about them that grows with the height. */
-static void choose_extent(fst_drawn_map *map)
+static int choose_extent(survey *s, const fst_field_options *options, void **memory)
 {
-    const double h = map->groups.h, half_lines = 0.5 * (map->groups.lines - 1) * map->groups.lambda;
-    const double l = map->groups.length_unit;
-    map->half_width = fmin(1.0 + 0.9 * h + 0.3, map->groups.map_radius); /* a measured field ends there */
-    map->half_height = map->bar ? half_lines + 0.9 * h : map->half_width;
-    fst_magnet_body *bodies = calloc(FST_PARTS_MAX, sizeof *bodies);
-    const int count = bodies && !map->bar ? fst_magnet_bodies(map->params, 1.0 / l, 1.0, bodies) : 0;
+    const double h = s->groups.h, half_lines = 0.5 * (s->groups.lines - 1) * s->groups.lambda;
+    const double l = s->groups.length_unit;
+    const int bar = s->params->magnet_shape == FST_MAGNET_LINES;
+    s->half_width = fmin(1.0 + 0.9 * h + 0.3, s->groups.map_radius); /* a measured field ends there */
+    s->half_height = bar ? half_lines + 0.9 * h : s->half_width;
+    fst_magnet_body *bodies = fst_keep(memory, FST_PARTS_MAX * sizeof *bodies);
+    const int count = bodies && !bar ? fst_magnet_bodies(s->params, 1.0 / l, 1.0, bodies) : 0;
     double reach[2] = {0.0, 0.0}, middle = 0.0;
     for (int i = 0; i < count; ++i) {
         middle += 0.5 * (bodies[i].seen.low + bodies[i].seen.high) / count;
@@ -165,34 +336,75 @@ static void choose_extent(fst_drawn_map *map)
             for (int axis = 0; axis < 2; ++axis)
                 reach[axis] = fmax(reach[axis], fabs(bodies[i].seen.corners[k][axis]));
     }
-    free(bodies);
-    if (count == 0)
-        return;
-    const double room = fmax(0.9 * fabs(h - middle), 0.15 * fmax(reach[0], reach[1]));
-    map->half_width = fmax(reach[0] + room, (reach[1] + room) / 1.25);
-    map->half_height = fmax(reach[1] + room, 0.5 * map->half_width);
+    if (count > 0) {
+        const double room = fmax(0.9 * fabs(h - middle), 0.15 * fmax(reach[0], reach[1]));
+        s->half_width = fmax(reach[0] + room, (reach[1] + room) / 1.25);
+        s->half_height = fmax(reach[1] + room, 0.5 * s->half_width);
+    }
+    s->half_width = isnan(options->half_width) ? s->half_width : options->half_width;
+    s->half_height = isnan(options->half_height) ? s->half_height : options->half_height;
+    return bodies != NULL;
 }
 
-fst_status fst_drawn_map_make(fst_drawn_map *map, const fst_params *params, const fst_field_options *options,
-                              fst_error *error)
+static int put_magnet(fst_field_picture *picture, const survey *s)
 {
-    fst_model *model = NULL;
-    *map = (fst_drawn_map){.params = params,
-                           .quantity = options->quantity,
-                           .other_height = !isnan(options->height),
-                           .bar = params->magnet_shape == FST_MAGNET_LINES};
-    const fst_status status = map->other_height ? fst_field_model_new(params, options->height, &model, error)
-                                                : fst_model_new(params, &model, error);
-    map->model = model;
+    if (s->params->magnet_shape != FST_MAGNET_LINES)
+        return fst_magnet_lines(s->params, s->length, 0.0, "below the plate", picture->lines,
+                                &picture->line_count, &picture->memory);
+    picture->line_count = 1;
+    return fst_magnet_rows(&s->groups, s->length, "the magnet's lines, below the plate", &picture->lines[0],
+                           &picture->memory);
+}
+
+/* ------------------------------------------------------------------ all of it */
+
+fst_field_options fst_default_field_options(void)
+{
+    return (fst_field_options){.cookie = OPTIONS_COOKIE, .height = NAN, .half_width = NAN, .half_height = NAN};
+}
+
+static int fill(fst_field_picture *picture, survey *s, const fst_field_options *options)
+{
+    choose_units(s, options->units);
+    if (!choose_extent(s, options, &picture->memory) || !put_values(picture, s))
+        return 0;
+    for (int i = 0; i < 4; ++i)
+        picture->box[i] = (i % 2 ? 1.0 : -1.0) * s->length * (i < 2 ? s->half_width : s->half_height);
+    put_maxima(picture, s);
+    put_labels(picture, s);
+    put_colours(picture, s);
+    if (!put_arrows(picture, s) || !put_magnet(picture, s))
+        return 0;
+    put_words(picture, s, !isnan(options->height));
+    return 1;
+}
+
+fst_status fst_field_picture_of(const fst_params *params, const fst_field_options *options,
+                                fst_field_picture *picture, fst_error *error)
+{
+    const fst_field_options defaults = fst_default_field_options();
+    *picture = (fst_field_picture){.columns = 0};
+    if (!options)
+        options = &defaults;
+    if (options->cookie != OPTIONS_COOKIE)
+        return fst_fail(error, FST_BAD_INPUT, "fst_field_picture_of",
+                        "the options were not made by fst_default_field_options()");
+    if (options->half_width <= 0.0 || options->half_height <= 0.0)
+        return fst_fail(error, FST_BAD_INPUT, "fst_field_options.half_width",
+                        "a map reaches more than 0 to each side");
+    survey s = {.params = params, .quantity = options->quantity};
+    fst_status status = fst_field_model_new(params, options->height, &s.model, error);
     if (status != FST_OK)
         return status;
-    map->groups = fst_model_groups(model);
-    choose_units(map, options->units);
-    choose_extent(map);
-    return FST_OK;
+    s.groups = fst_model_groups(s.model);
+    if (!fill(picture, &s, options))
+        status = fst_fail(error, FST_NO_MEMORY, "fst_field_picture_of", "out of memory");
+    fst_model_free(s.model);
+    return status;
 }
 
-void fst_drawn_map_free(fst_drawn_map *map)
+void fst_field_picture_free(fst_field_picture *picture)
 {
-    fst_model_free((fst_model *)map->model);
+    fst_keep_free(picture->memory);
+    *picture = (fst_field_picture){.columns = 0};
 }

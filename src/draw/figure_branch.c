@@ -2,7 +2,6 @@
 #include <festoon/festoon_tools.h>
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/constants.h"
@@ -11,8 +10,7 @@
 
 enum {
     CIRCLE = 181,
-    SPECIAL_TYPES = FST_SPECIAL_GRAZING + 1,
-    CURVES = SPECIAL_TYPES + 4,
+    CURVES = FST_SPECIAL_COUNT + 4,
     PARTS = 8,    /* the most pieces of the smooth curve between two points of a branch */
     ENOUGH = 1600 /* about as many points as the smooth curves need */
 };
@@ -64,10 +62,18 @@ static double value_of(const fst_branch_point *p, const fst_observable_info *wha
     return is_angle(what) && value < -90.0 ? value + 360.0 : value;
 }
 
-/* Whether the curve goes on from one value to the next; an angle may jump, through its gap or at r = 0. */
-static int goes_on_to(const fst_observable_info *what, double from, double to)
+/* Where an orbit passes the axis it no longer turns round it: <alpha'> jumps, and N with it. */
+static int jumps_with_turns(const fst_observable_info *what)
 {
-    return !is_angle(what) || !(fabs(to - from) > 90.0);
+    return strcmp(what->name, "mean_alpha_dot") == 0 || strcmp(what->name, "festoons") == 0;
+}
+
+/* Whether the curve goes on from one point to the next; an angle may jump, through its gap or at r = 0. */
+static int goes_on_to(const fst_observable_info *what, const fst_branch_point *from, const fst_branch_point *to)
+{
+    if (jumps_with_turns(what) && from->turns != to->turns)
+        return 0;
+    return !is_angle(what) || !(fabs(value_of(to, what) - value_of(from, what)) > 90.0);
 }
 
 /* Write a curve as two columns of numbers. */
@@ -76,10 +82,10 @@ typedef struct columns {
     size_t count;
 } columns;
 
-static int make_columns(columns *c, size_t capacity)
+static int make_columns(fst_chart *chart, columns *c, size_t capacity)
 {
-    c->x = malloc((capacity + 1) * sizeof *c->x);
-    c->y = malloc((capacity + 1) * sizeof *c->y);
+    c->x = fst_chart_keep(chart, (capacity + 1) * sizeof *c->x);
+    c->y = fst_chart_keep(chart, (capacity + 1) * sizeof *c->y);
     c->count = 0;
     return c->x && c->y;
 }
@@ -105,10 +111,9 @@ static void put_border(columns *c, const fst_branch *b, const fst_branch_point *
             fabs(s->at.mean_r - r) < reach_r && (!best || fabs(s->value - x) < fabs(best->value - x)))
             best = s;
     }
-    if (best && goes_on_to(what, value_of(p, what), value_of(&best->at, what)) &&
-        goes_on_to(what, value_of(q, what), value_of(&best->at, what)))
+    if (best && goes_on_to(what, p, &best->at) && goes_on_to(what, q, &best->at))
         put(c, best->value, value_of(&best->at, what));
-    else if (goes_on_to(what, value_of(p, what), value_of(q, what)))
+    else if (goes_on_to(what, p, q))
         put(c, x, 0.5 * (value_of(p, what) + value_of(q, what)));
 }
 
@@ -123,6 +128,26 @@ static int is_hidden(const fst_branch *b, const fst_observable_info *what, int b
     return 0;
 }
 
+/* A gap between two neighbouring points of one stability.  Both pieces of <alpha'> reach to where the orbit passes the
+ * axis: it is omega there, and less by the turns of Phi in a period. */
+static void put_gap(columns *c, const fst_branch *b, const fst_branch_point *p, const fst_branch_point *q,
+                    const fst_observable_info *what)
+{
+    const fst_branch_point *at = NULL;
+    for (size_t i = 0; i < b->special_count; ++i) {
+        const fst_special *s = &b->specials[i];
+        if (s->type == FST_SPECIAL_ORIGIN_CROSSING && s->branch == p->branch &&
+            (s->value - p->value) * (s->value - q->value) <= 0.0)
+            at = &s->at;
+    }
+    const int reach = at && strcmp(what->name, "mean_alpha_dot") == 0 && p->turns != q->turns;
+    if (reach)
+        put(c, at->value, at->omega + p->turns * FST_TWO_PI / at->period);
+    put(c, NAN, NAN);
+    if (reach)
+        put(c, at->value, at->omega + q->turns * FST_TWO_PI / at->period);
+}
+
 /* Write the pieces of one stability, with a gap between them. */
 static void put_pieces(columns *c, const fst_branch *b, const fst_observable_info *what, int stable)
 {
@@ -134,8 +159,8 @@ static void put_pieces(columns *c, const fst_branch *b, const fst_observable_inf
             continue;
         if (joined && p[-1].stable != stable)
             put_border(c, b, p - 1, p, what);
-        if (joined && c->count > 0 && !goes_on_to(what, value_of(p - 1, what), value_of(p, what)))
-            put(c, NAN, NAN);
+        if (joined && p[-1].stable == stable && !goes_on_to(what, p - 1, p))
+            put_gap(c, b, p - 1, p, what);
         put(c, p->value, value_of(p, what));
         if (goes_on && p[1].stable != stable)
             put_border(c, b, p, p + 1, what);
@@ -153,8 +178,51 @@ static void put_multipliers(columns *c, const fst_branch *b, int stable)
                 put(c, b->points[i].multiplier_re[k], b->points[i].multiplier_im[k]);
 }
 
+/* Keep points that are given twice once; returns how many are left of the piece. */
+static size_t without_twins(double *x, double *y, size_t count, double wide, double tall)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < count; ++i)
+        if (kept == 0 || fabs(x[i] - x[kept - 1]) > 1e-9 * wide || fabs(y[i] - y[kept - 1]) > 1e-9 * tall) {
+            x[kept] = x[i];
+            y[kept++] = y[i];
+        }
+    return kept;
+}
+
+/* Whether an ordinate grows by orders of magnitude: cubics would swing, and go through its logarithm. */
+static int grows_much(const double *y, size_t count)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; i < count; ++i) {
+        low = fmin(low, y[i]);
+        high = fmax(high, y[i]);
+    }
+    return low > 0.0 && high > 100.0 * low;
+}
+
+/* Put a smooth curve through a piece. */
+static void put_smooth(columns *to, double *x, double *y, size_t count, int parts, double wide, double tall)
+{
+    const int by_logarithm = grows_much(y, count);
+    if (by_logarithm) {
+        double low = INFINITY, high = -INFINITY;
+        for (size_t i = 0; i < count; ++i) {
+            y[i] = log(y[i]);
+            low = fmin(low, y[i]);
+            high = fmax(high, y[i]);
+        }
+        tall = high - low;
+    }
+    count = without_twins(x, y, count, wide, tall);
+    const size_t made = fst_smooth(x, y, count, parts, wide, tall, to->x + to->count, to->y + to->count);
+    for (size_t i = 0; by_logarithm && i < made; ++i)
+        to->y[to->count + i] = exp(to->y[to->count + i]);
+    to->count += made;
+}
+
 /* Put a smooth curve through each piece of the columns, whose gaps are NANs. */
-static int smoothen(columns *c)
+static int smoothen(fst_chart *chart, columns *c)
 {
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     columns smooth = {NULL, NULL, 0};
@@ -162,34 +230,23 @@ static int smoothen(columns *c)
         return 1;
     const size_t wanted = 1 + ENOUGH / c->count;
     const int parts = wanted < PARTS ? (int)wanted : PARTS;
-    if (!make_columns(&smooth, PARTS * c->count)) {
-        free(smooth.x);
-        free(smooth.y);
+    if (!make_columns(chart, &smooth, PARTS * c->count))
         return 0;
-    }
     for (size_t i = 0; i < c->count; ++i) {
         low[0] = fmin(low[0], c->x[i]);
         high[0] = fmax(high[0], c->x[i]);
         low[1] = fmin(low[1], c->y[i]);
         high[1] = fmax(high[1], c->y[i]);
     }
-    const double wide = high[0] - low[0], tall = high[1] - low[1];
     for (size_t i = 0; i < c->count;) {
-        size_t last = i, kept = i; /* points that are given twice are kept once */
-        for (; last < c->count && isfinite(c->x[last]) && isfinite(c->y[last]); ++last)
-            if (last == i || fabs(c->x[last] - c->x[kept - 1]) > 1e-9 * wide ||
-                fabs(c->y[last] - c->y[kept - 1]) > 1e-9 * tall) {
-                c->x[kept] = c->x[last];
-                c->y[kept++] = c->y[last];
-            }
-        if (kept > i)
-            smooth.count += fst_smooth(c->x + i, c->y + i, kept - i, parts, wide, tall, smooth.x + smooth.count,
-                                       smooth.y + smooth.count);
+        size_t last = i;
+        while (last < c->count && isfinite(c->x[last]) && isfinite(c->y[last]))
+            ++last;
+        if (last > i)
+            put_smooth(&smooth, c->x + i, c->y + i, last - i, parts, high[0] - low[0], high[1] - low[1]);
         put(&smooth, NAN, NAN);
         i = last + 1;
     }
-    free(c->x);
-    free(c->y);
     *c = smooth;
     return 1;
 }
@@ -210,34 +267,30 @@ static void style_curve(fst_chart_curve *curve, const columns *c, const char *ti
 }
 
 /* How special points are called and drawn. */
+#define SIGN(NAME, name, doc, words, colour, sign) {words, FST_COLOUR_##colour, sign},
 static const struct {
     const char *words;
     fst_colour colour;
     int sign; /* gnuplot's number of the shape */
-} signs[SPECIAL_TYPES] = {[FST_SPECIAL_FOLD] = {"fold", FST_COLOUR_BLACK, 5},
-                          [FST_SPECIAL_PITCHFORK] = {"pitchfork", FST_COLOUR_VERMILION, 9},
-                          [FST_SPECIAL_PERIOD_DOUBLING] = {"period doubling", FST_COLOUR_GREEN, 13},
-                          [FST_SPECIAL_HOPF] = {"Hopf", FST_COLOUR_PURPLE, 7},
-                          [FST_SPECIAL_NEIMARK_SACKER] = {"Neimark-Sacker", FST_COLOUR_ORANGE, 11},
-                          [FST_SPECIAL_ORIGIN_CROSSING] = {"passes the axis, r = 0", FST_COLOUR_BLACK, 2},
-                          [FST_SPECIAL_TRANSCRITICAL] = {"families cross", FST_COLOUR_GREEN, 1},
-                          [FST_SPECIAL_GRAZING] = {"contact just sticks or slips", FST_COLOUR_ORANGE, 3}};
+} signs[] = {FST_SPECIALS(SIGN)};
+#undef SIGN
 
 fst_look fst_special_look(fst_special_type type)
 {
-    if ((int)type < 0 || (int)type >= SPECIAL_TYPES)
+    if ((unsigned)type >= FST_SPECIAL_COUNT)
         return (fst_look){NULL, NULL};
     return (fst_look){signs[type].words, fst_colour_code(signs[type].colour)};
 }
 
 /* Returns how many curves there are; -1: no memory. */
-static int add_diagram(const fst_branch *b, const shown *s, columns *c, fst_chart_curve *curves)
+static int add_diagram(fst_chart *chart, const fst_branch *b, const shown *s, columns *c,
+                       fst_chart_curve *curves)
 {
     const int over_two = b->second_key[0] != 0;
     int count = 0;
     for (int k = 0; k < 2; ++k) {
         put_pieces(&c[k], b, s->what, 1 - k);
-        if (!smoothen(&c[k]))
+        if (!smoothen(chart, &c[k]))
             return -1;
         show_in_units(&c[k], s);
     }
@@ -245,7 +298,7 @@ static int add_diagram(const fst_branch *b, const shown *s, columns *c, fst_char
                 FST_CURVE_LINE);
     style_curve(&curves[count++], &c[1], over_two ? "of an unstable state" : "unstable", FST_COLOUR_GREY,
                 FST_CURVE_DASHED);
-    for (int type = 0; type < SPECIAL_TYPES; ++type) {
+    for (int type = 0; type < FST_SPECIAL_COUNT; ++type) {
         columns *special = &c[2 + type];
         for (size_t i = 0; i < b->special_count; ++i)
             if ((int)b->specials[i].type == type)
@@ -283,14 +336,13 @@ static int add_multipliers(const fst_branch *b, const shown *s, columns *c, fst_
 
 static fst_status unknown_observable(const char *name, fst_error *error)
 {
-    char names[256] = "multipliers", nearest[32];
+    char names[256] = "multipliers", suggestion[FST_SUGGESTION_SIZE];
     for (size_t i = 0; i < sizeof OBSERVABLES / sizeof *OBSERVABLES; ++i) {
         const size_t used = strlen(names);
         (void)snprintf(names + used, sizeof names - used, "|%s", OBSERVABLES[i].name);
     }
-    (void)fst_nearest_name(name, names, nearest, sizeof nearest);
-    return fst_fail(error, FST_BAD_INPUT, "fst_figure_branch.observable",
-                    "unknown observable \"%.60s\"; the nearest is %s (%s)", name, nearest, names);
+    return fst_fail(error, FST_BAD_INPUT, "fst_figure_branch.observable", "unknown observable \"%.60s\"; %s",
+                    name, fst_suggest_name(name, names, suggestion));
 }
 
 static int has_values(const fst_branch *b, const fst_observable_info *what)
@@ -335,7 +387,7 @@ static fst_status choose_axes(const fst_branch *b, fst_shown_units units, shown 
                   : "%sthis file has no scene, so that its scaled units are not known in others",
             scale ? scale : "");
     const fst_shown_units used = units != FST_SHOWN_AS_GIVEN ? units
-                                 : known                     ? fst_units_of_parameter(b->key)
+                                 : known                     ? fst_units_over((const char *[]){b->key}, 1)
                                                              : FST_SHOWN_AS_GIVEN;
     if (s->what)
         s->x = fst_quantity_of_parameter(b->key, units, &scales);
@@ -372,48 +424,73 @@ static void make_title(const fst_branch *b, const shown *s, char *title, size_t 
                        signs[b->followed].words, over, second);
     } else
         (void)snprintf(title, size, "%s over the %.90s", kinds[b->kind], over);
+    if (!b->complete)
+        (void)snprintf(title + strlen(title), size - strlen(title), " (incomplete: interrupted)");
 }
 
-static fst_status draw(const fst_branch *b, const shown *s, const fst_chart_curve *curves, int count,
-                       const char *out, fst_error *error)
+/* Axes, ranges and words of the chart. */
+static fst_status arrange(fst_chart *chart, const fst_branch *b, const shown *s, const fst_chart_curve *curves,
+                          int count)
 {
     static const fst_chart_mark axis = {0.0, "left of it disturbances die away"};
     const int circle = !s->what && b->kind != FST_BRANCH_LOCKED, rates = !s->what && !circle;
     char title[256];
-    double low = s->x.factor * fmin(b->from, b->to), high = s->x.factor * fmax(b->from, b->to);
     make_title(b, s, title, sizeof title);
-    if (rates) {
-        low = high = 0.0;
-        for (int c = 0; c < count; ++c)
-            for (size_t i = 0; i < curves[c].count; ++i) {
-                low = fmin(low, 1.05 * curves[c].x[i]);
-                high = fmax(high, 1.05 * curves[c].x[i]);
-            }
-        high = fmax(high, 0.05 * (high - low));
-    }
-    const fst_chart_panel panel = {.left_label = s->y.label,
-                                   .low = circle ? -1.2 : NAN,
-                                   .high = circle ? 1.2 : NAN,
-                                   .curves = curves,
-                                   .curve_count = count};
-    const fst_chart chart = {.title = title,
-                             .x_label = s->x.label,
-                             .x_low = circle ? -1.2 : low,
-                             .x_high = circle ? 1.2 : high,
-                             .square = circle,
-                             .panels = &panel,
-                             .panel_count = 1,
-                             .marks = &axis,
-                             .mark_count = rates};
-    return fst_figure_chart(out, &chart, error);
+    fst_chart_panel *panel = fst_chart_keep(chart, sizeof *panel);
+    chart->title = fst_chart_text(chart, title);
+    chart->x_label = fst_chart_text(chart, s->x.label);
+    const char *y_label = fst_chart_text(chart, s->y.label);
+    if (!panel || !chart->title || !chart->x_label || !y_label)
+        return FST_NO_MEMORY;
+    chart->x_low = circle ? -1.2 : rates ? 0.0 : s->x.factor * fmin(b->from, b->to);
+    chart->x_high = circle ? 1.2 : rates ? 0.0 : s->x.factor * fmax(b->from, b->to);
+    for (int c = 0; rates && c < count; ++c)
+        for (size_t i = 0; i < curves[c].count; ++i) {
+            chart->x_low = fmin(chart->x_low, 1.05 * curves[c].x[i]);
+            chart->x_high = fmax(chart->x_high, 1.05 * curves[c].x[i]);
+        }
+    if (rates)
+        chart->x_high = fmax(chart->x_high, 0.05 * (chart->x_high - chart->x_low));
+    *panel = (fst_chart_panel){.left_label = y_label,
+                               .low = circle ? -1.2 : NAN,
+                               .high = circle ? 1.2 : NAN,
+                               .curves = curves,
+                               .curve_count = count};
+    chart->square = circle;
+    chart->panels = panel;
+    chart->panel_count = 1;
+    chart->marks = &axis;
+    chart->mark_count = rates;
+    return FST_OK;
 }
 
-fst_status fst_figure_branch(const fst_branch *branch, const char *observable, fst_shown_units units,
-                             const double *dots, size_t dot_count, const char *out, fst_error *error)
+/* Fill in an empty chart; FST_NO_MEMORY needs no sentence yet. */
+static fst_status fill(fst_chart *chart, const fst_branch *b, const shown *s, const double *dots,
+                       size_t dot_count)
 {
-    const int multipliers = strcmp(observable, "multipliers") == 0;
+    columns c[CURVES];
+    fst_chart_curve *curves = fst_chart_keep(chart, CURVES * sizeof *curves);
+    const size_t most = b->point_count * (s->what ? 7 : FST_EIGENVALUE_COUNT) + b->special_count + CIRCLE;
+    for (int i = 0; i < CURVES; ++i)
+        if (!curves || !make_columns(chart, &c[i], most + dot_count))
+            return FST_NO_MEMORY;
+    int count = s->what ? add_diagram(chart, b, s, c, curves) : add_multipliers(b, s, c, curves);
+    columns *simulated = &c[CURVES - 1];
+    for (size_t i = 0; i < dot_count && s->what; ++i)
+        put(simulated, dots[2 * i], dots[2 * i + 1]);
+    if (count >= 0 && simulated->count > 0) {
+        show_in_units(simulated, s);
+        style_curve(&curves[count++], simulated, "simulated", FST_COLOUR_BLACK, FST_CURVE_OPEN_POINTS);
+    }
+    return count < 0 ? FST_NO_MEMORY : arrange(chart, b, s, curves, count);
+}
+
+fst_status fst_chart_of_branch(const fst_branch *branch, const char *observable, fst_shown_units units,
+                               const double *dots, size_t dot_count, fst_chart **chart, fst_error *error)
+{
     shown s = {.what = find_observable(observable)};
-    if (!s.what && !multipliers)
+    *chart = NULL;
+    if (!s.what && strcmp(observable, "multipliers") != 0)
         return unknown_observable(observable, error);
     if (branch->point_count == 0)
         return fst_fail(error, FST_BAD_INPUT, branch->key,
@@ -424,28 +501,21 @@ fst_status fst_figure_branch(const fst_branch *branch, const char *observable, f
         status = choose_axes(branch, units, &s, error);
     if (status != FST_OK)
         return status;
-    columns c[CURVES] = {{NULL, NULL, 0}};
-    fst_chart_curve curves[CURVES];
-    const size_t most =
-        branch->point_count * (multipliers ? FST_EIGENVALUE_COUNT : 4) + branch->special_count + CIRCLE;
-    for (int i = 0; i < CURVES; ++i)
-        if (!make_columns(&c[i], most + dot_count))
-            status = fst_fail(error, FST_NO_MEMORY, out, "out of memory");
-    if (status == FST_OK) {
-        int count = multipliers ? add_multipliers(branch, &s, c, curves) : add_diagram(branch, &s, c, curves);
-        columns *simulated = &c[CURVES - 1];
-        for (size_t i = 0; i < dot_count && !multipliers; ++i)
-            put(simulated, dots[2 * i], dots[2 * i + 1]);
-        if (count >= 0 && simulated->count > 0) {
-            show_in_units(simulated, &s);
-            style_curve(&curves[count++], simulated, "simulated", FST_COLOUR_BLACK, FST_CURVE_OPEN_POINTS);
-        }
-        status = count < 0 ? fst_fail(error, FST_NO_MEMORY, out, "out of memory")
-                           : draw(branch, &s, curves, count, out, error);
-    }
-    for (int i = 0; i < CURVES; ++i) {
-        free(c[i].x);
-        free(c[i].y);
-    }
+    *chart = fst_chart_new();
+    if (*chart && fill(*chart, branch, &s, dots, dot_count) == FST_OK)
+        return FST_OK;
+    fst_chart_free(*chart);
+    *chart = NULL;
+    return fst_fail(error, FST_NO_MEMORY, branch->key, "out of memory");
+}
+
+fst_status fst_figure_branch(const fst_branch *branch, const char *observable, fst_shown_units units,
+                             const double *dots, size_t dot_count, const char *out, fst_error *error)
+{
+    fst_chart *chart;
+    fst_status status = fst_chart_of_branch(branch, observable, units, dots, dot_count, &chart, error);
+    if (status == FST_OK)
+        status = fst_figure_chart(out, chart, error);
+    fst_chart_free(chart);
     return status;
 }

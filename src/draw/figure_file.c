@@ -75,7 +75,7 @@ static char *beside(const fst_figure_file *figure, const char *ending)
 
 void fst_figure_quote(fst_figure_file *figure, const char *text)
 {
-    fst_gnuplot_quote(figure->script, text);
+    fst_gnuplot_quote(&figure->script_text, text);
 }
 
 /* Name a file beside the script so that gnuplot takes it for a file and nothing else. */
@@ -87,25 +87,28 @@ static void quote_name(fst_figure_file *figure, const char *ending)
 }
 
 /* Each terminal has units of its own for letters, lines, points and dashes: the scales make them look alike.  A
- * PNG is drawn at twice the size, for fine screens. */
+ * PNG is drawn at twice the size, for fine screens.  A path in changing colours is made of pieces, between which
+ * gaps would show if their ends were not round. */
 static void write_terminal(fst_figure_file *figure, int width, int height)
 {
     FILE *script = figure->script;
     if (!strcmp(figure->ending, "svg"))
-        (void)fprintf(script, "set terminal svg size %d,%d enhanced background 'white' font 'sans-serif,13'\n",
+        (void)fprintf(script,
+                      "set terminal svg size %d,%d enhanced rounded background 'white' font 'sans-serif,13'\n",
                       width, height);
     else if (!strcmp(figure->ending, "pdf"))
+        (void)fprintf(script,
+                      "set terminal pdfcairo size %.4fin,%.4fin enhanced rounded fontscale 0.5625 linewidth "
+                      "1.5 pointscale 0.8 "
+                      "dashlength 1.3 font 'sans,13'\n",
+                      width / 96.0, height / 96.0);
+    else
         (void)fprintf(
             script,
-            "set terminal pdfcairo size %.4fin,%.4fin enhanced fontscale 0.5625 linewidth 1.5 pointscale 0.8 "
-            "dashlength 1.3 font 'sans,13'\n",
-            width / 96.0, height / 96.0);
-    else
-        (void)fprintf(script,
-                      "set terminal pngcairo size %d,%d enhanced fontscale 1.5 linewidth 2 pointscale 3.2 "
-                      "dashlength 1.6 "
-                      "background 'white' font 'sans,13'\n",
-                      2 * width, 2 * height);
+            "set terminal pngcairo size %d,%d enhanced rounded fontscale 1.5 linewidth 2 pointscale 3.2 "
+            "dashlength 1.6 "
+            "background 'white' font 'sans,13'\n",
+            2 * width, 2 * height);
 }
 
 static void write_head(fst_figure_file *figure, int width, int height)
@@ -132,12 +135,8 @@ static void write_head(fst_figure_file *figure, int width, int height)
 
 static void release(fst_figure_file *figure)
 {
-    if (figure->script)
-        (void)fclose(figure->script);
-    if (figure->data)
-        (void)fclose(figure->data);
-    free(figure->script_text);
-    free(figure->data_text);
+    free(fst_print_end(&figure->script_text));
+    free(fst_print_end(&figure->data_text));
     free(figure->out);
     free(figure->directory);
     free(figure->stem);
@@ -151,8 +150,8 @@ fst_status fst_figure_begin(fst_figure_file *figure, const char *out, int width,
     figure->locale = fst_c_locale_enter();
     fst_status status = take_apart(figure, out, error);
     if (status == FST_OK) {
-        figure->script = open_memstream(&figure->script_text, &figure->script_size);
-        figure->data = open_memstream(&figure->data_text, &figure->data_size);
+        figure->script = fst_print_begin(&figure->script_text);
+        figure->data = fst_print_begin(&figure->data_text);
         if (!figure->script || !figure->data)
             status = fst_fail(error, FST_NO_MEMORY, out, "no memory for a figure");
     }
@@ -175,7 +174,7 @@ static void write_comment(FILE *out, const char *text)
 void fst_figure_block(fst_figure_file *figure, const char *name, const char *columns)
 {
     /* Two empty lines end a block.  `index` finds a block by the comment line right before it. */
-    if (ftell(figure->data) > 0)
+    if (figure->blocks++)
         (void)fputs("\n\n", figure->data);
     write_comment(figure->data, name);
     write_comment(figure->data, columns);
@@ -210,10 +209,11 @@ static const char *name_there(const fst_whole_file *file)
     return slash && file->temporary[0] != '/' ? slash + 1 : file->temporary;
 }
 
-static fst_status draw(const fst_figure_file *figure, fst_whole_file files[FILES], fst_error *error)
+static fst_status draw(const fst_figure_file *figure, const char *const texts[FIGURE],
+                       fst_whole_file files[FILES], fst_error *error)
 {
-    (void)fwrite(figure->data_text, 1, figure->data_size, files[DATA].stream);
-    (void)fwrite(figure->script_text, 1, figure->script_size, files[SCRIPT].stream);
+    (void)fputs(texts[DATA], files[DATA].stream);
+    (void)fputs(texts[SCRIPT], files[SCRIPT].stream);
     fst_status status = fst_whole_file_sync(&files[DATA], error);
     if (status == FST_OK)
         status = fst_whole_file_sync(&files[SCRIPT], error);
@@ -231,7 +231,8 @@ static fst_status draw(const fst_figure_file *figure, fst_whole_file files[FILES
     return status;
 }
 
-static fst_status write_files(const fst_figure_file *figure, const char *const paths[FILES], fst_error *error)
+static fst_status write_files(const fst_figure_file *figure, const char *const texts[FIGURE],
+                              const char *const paths[FILES], fst_error *error)
 {
     fst_whole_file files[FILES];
     fst_status status = FST_OK;
@@ -241,7 +242,7 @@ static fst_status write_files(const fst_figure_file *figure, const char *const p
         opened += status == FST_OK;
     }
     if (status == FST_OK)
-        status = draw(figure, files, error);
+        status = draw(figure, texts, files, error);
     for (; committed < FILES && status == FST_OK; ++committed)
         status = fst_whole_file_commit(&files[committed], error);
     for (int i = committed; i < opened; ++i)
@@ -249,28 +250,21 @@ static fst_status write_files(const fst_figure_file *figure, const char *const p
     return status;
 }
 
-/* Close a memory stream; 1 if everything was written into it. */
-static int closed(FILE **stream)
-{
-    int good = !ferror(*stream);
-    good = fclose(*stream) == 0 && good;
-    *stream = NULL;
-    return good;
-}
-
 fst_status fst_figure_finish(fst_figure_file *figure, fst_error *error)
 {
     (void)fputs("unset output\n", figure->script);
-    int good = closed(&figure->script);
-    good = closed(&figure->data) && good;
+    char *texts[FIGURE] = {
+        [DATA] = fst_print_end(&figure->data_text), [SCRIPT] = fst_print_end(&figure->script_text)};
     char *script = beside(figure, "gp");
     char *data = beside(figure, "dat");
     fst_status status = FST_OK;
-    if (!good || !script || !data)
+    if (!texts[DATA] || !texts[SCRIPT] || !script || !data)
         status = fst_fail(error, FST_NO_MEMORY, figure->out, "no memory for a figure");
     const char *const paths[FILES] = {[DATA] = data, [SCRIPT] = script, [FIGURE] = figure->out};
     if (status == FST_OK)
-        status = write_files(figure, paths, error);
+        status = write_files(figure, (const char *const *)texts, paths, error);
+    free(texts[DATA]);
+    free(texts[SCRIPT]);
     free(script);
     free(data);
     release(figure);

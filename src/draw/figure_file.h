@@ -5,14 +5,14 @@
 
 #include "base/number.h"
 
-#include <festoon/festoon.h>
+#include <festoon/festoon_tools.h>
 
 #include <stdio.h>
 
 typedef struct fst_figure_file {
     FILE *script, *data; /* gnuplot commands and data blocks are written into these */
-    char *script_text, *data_text;
-    size_t script_size, data_size;
+    fst_printed script_text, data_text;
+    int blocks;      /* how many blocks the data has */
     char *out;       /* the figure's path */
     char *directory; /* the figure's directory; "." where the path has none */
     char *stem;      /* its file name without the ending */

@@ -52,7 +52,7 @@ fst_status fst_figure_local_n(const fst_table *table, const char *out, const fst
 {
     fst_view view;
     const double *n_r, *n_alpha, *n_z;
-    fst_status status = fst_view_of(&view, table, options, 2.0, 16.0, error);
+    fst_status status = fst_view_of(&view, table, options, error);
     if (status == FST_OK)
         status = fst_view_columns(&view, error, "n_r", &n_r, "n_alpha", &n_alpha, "n_z", &n_z, NULL);
     if (status != FST_OK)

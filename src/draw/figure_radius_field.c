@@ -3,7 +3,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
-#include "draw/chart.h"
+#include <festoon/festoon_tools.h>
 #include "draw/view.h"
 
 #include <stdlib.h>
@@ -101,7 +101,7 @@ fst_status fst_figure_radius_field(const fst_table *table, const char *out, cons
                         "the figure of r and |B| has two curves and no colour scale");
     fst_view view;
     const double *bead_angle, *r, *b;
-    fst_status status = fst_view_of(&view, table, options, INFINITY, 6.0, error);
+    fst_status status = fst_view_of(&view, table, options, error);
     if (status == FST_OK)
         status = fst_view_columns(&view, error, "Phi", &bead_angle, "r", &r, "B", &b, NULL);
     if (status != FST_OK)

@@ -3,17 +3,18 @@
 
 #include "base/constants.h"
 #include "base/error.h"
-#include "draw/chart.h"
+#include <festoon/festoon_tools.h>
 #include "draw/view.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 enum {
-    PARTS = 8,      /* the most pieces of the smooth curve between two samples */
-    ENOUGH = 1200,  /* about as many points as a smooth curve needs */
-    WINDOWS = 150,  /* of a ramp, over each of which a mean is drawn */
-    MANY_DOTS = 200 /* more dots than these are small ones */
+    PARTS = 8,        /* the most pieces of the smooth curve between two samples */
+    ENOUGH = 1200,    /* about as many points as a smooth curve needs */
+    WINDOWS = 150,    /* of a ramp, over each of which a mean is drawn */
+    MANY_DOTS = 200,  /* more dots than these are small ones */
+    ORBIT_PERIODS = 6 /* of the drive, of a closed orbit about its section */
 };
 
 /* The columns that a figure shows. */
@@ -127,7 +128,7 @@ fst_status fst_figure_time(const fst_table *table, const char *out, const fst_fi
 {
     fst_view view;
     chosen c;
-    fst_status status = fst_view_of(&view, table, options, INFINITY, 8.0, error);
+    fst_status status = fst_view_of(&view, table, options, error);
     if (status == FST_OK)
         status = choose(&view, options, "r", "n_z", &c, error);
     return status == FST_OK ? draw_time(&view, &c, out, error) : status;
@@ -170,7 +171,7 @@ static size_t put_section(const fst_view *view, const chosen *c, const double *b
     return count;
 }
 
-/* Points closer than a fiftieth of the whole motion look like one: a closed orbit is one point. */
+/* Points within a fiftieth of the whole motion look like one. */
 static double least_span(const fst_view *view, const chosen *c, int k)
 {
     double least, greatest;
@@ -178,20 +179,60 @@ static double least_span(const fst_view *view, const chosen *c, int k)
     return 0.02 * fabs(c->shown[k].factor) * (greatest - least);
 }
 
+static int is_one_point(const fst_view *view, const chosen *c, int k, const double *values, size_t count)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; i < count; ++i) {
+        low = fmin(low, values[i]);
+        high = fmax(high, values[i]);
+    }
+    return high - low <= least_span(view, c, k);
+}
+
+/* The motion about the section, for as long as a figure of the moment shows it; returns how many samples. */
+static size_t put_motion(const fst_view *view, const chosen *c, double *x, double *y)
+{
+    const double *turns;
+    size_t count = 0;
+    if (fst_view_columns(view, NULL, "drive_turns", &turns, NULL) != FST_OK)
+        return 0;
+    const double from = turns[view->first];
+    for (size_t row = view->first; row < view->last && turns[row] - from <= ORBIT_PERIODS; ++row, ++count) {
+        x[count] = c->shown[0].factor * c->values[0][row];
+        y[count] = c->shown[1].factor * c->values[1][row];
+    }
+    return count;
+}
+
+/* The points of a closed orbit all lie at one place, which means nothing without the orbit about it.  `motion` has
+ * room for the samples twice. */
 static fst_status draw_section(const fst_view *view, const chosen *c, const double *x, const double *y,
-                               size_t count, const char *out, fst_error *error)
+                               size_t count, double *motion, const char *out, fst_error *error)
 {
     char about[320];
     double low, high;
-    const fst_chart_curve curve = {.x = x,
-                                   .y = y,
-                                   .count = count,
-                                   .colour = FST_COLOUR_BLUE,
-                                   .style = count > MANY_DOTS ? FST_CURVE_DOTS : FST_CURVE_POINTS};
-    fst_chart_panel panel = {.left_label = c->shown[1].label, .curves = &curve, .curve_count = 1};
-    range_of(x, count, least_span(view, c, 0), &low, &high);
-    range_of(y, count, least_span(view, c, 1), &panel.low, &panel.high);
-    (void)snprintf(about, sizeof about, "%.200s; a point for each of %zu passages", view->about, count);
+    const int one = is_one_point(view, c, 0, x, count) && is_one_point(view, c, 1, y, count);
+    double *const motion_x = motion, *const motion_y = motion + (view->last - view->first);
+    const size_t drawn = one ? put_motion(view, c, motion_x, motion_y) : 0;
+    const fst_chart_curve curves[] = {{.title = one ? "the passages of Φ = 90°" : NULL,
+                                       .x = x,
+                                       .y = y,
+                                       .count = count,
+                                       .colour = FST_COLOUR_BLUE,
+                                       .style = count > MANY_DOTS && !one ? FST_CURVE_DOTS : FST_CURVE_POINTS},
+                                      {.title = "the motion between them",
+                                       .x = motion_x,
+                                       .y = motion_y,
+                                       .count = drawn,
+                                       .colour = FST_COLOUR_GREY,
+                                       .style = FST_CURVE_THIN}};
+    fst_chart_panel panel = {.left_label = c->shown[1].label, .curves = curves, .curve_count = one ? 2 : 1};
+    range_of(one ? motion_x : x, one ? drawn : count, least_span(view, c, 0), &low, &high);
+    range_of(one ? motion_y : y, one ? drawn : count, least_span(view, c, 1), &panel.low, &panel.high);
+    (void)snprintf(about, sizeof about,
+                   one ? "%.200s; all %zu passages at one place: the orbit is closed"
+                       : "%.200s; a point for each of %zu passages",
+                   view->about, count);
     const fst_chart chart = {.title =
                                  view->title ? view->title : "Poincaré section at Φ = 90°, passed downwards",
                              .about = about,
@@ -210,7 +251,7 @@ fst_status fst_figure_section(const fst_table *table, const char *out, const fst
     fst_view view;
     chosen c;
     const double *bead_angle = NULL;
-    fst_status status = fst_view_of(&view, table, options, INFINITY, INFINITY, error);
+    fst_status status = fst_view_of(&view, table, options, error);
     if (status == FST_OK)
         status = choose(&view, options, "r", "n_z", &c, error);
     if (status == FST_OK && c.count != 2)
@@ -221,7 +262,7 @@ fst_status fst_figure_section(const fst_table *table, const char *out, const fst
     if (status != FST_OK)
         return status;
     const size_t rows = view.last - view.first;
-    double *memory = malloc(2 * rows * sizeof *memory);
+    double *memory = malloc(4 * rows * sizeof *memory);
     if (!memory)
         return no_memory(out, rows, error);
     const size_t count = put_section(&view, &c, bead_angle, memory, memory + rows);
@@ -231,7 +272,7 @@ fst_status fst_figure_section(const fst_table *table, const char *out, const fst
                      "the bead's angle Phi against the magnet never passes 90 degrees downwards in the part "
                      "shown, so that there is no section: figures of time show such a motion");
     else
-        status = draw_section(&view, &c, memory, memory + rows, count, out, error);
+        status = draw_section(&view, &c, memory, memory + rows, count, memory + 2 * rows, out, error);
     free(memory);
     return status;
 }
@@ -343,7 +384,7 @@ fst_status fst_figure_ramp(const fst_table *table, const char *out, const fst_fi
     windows w = {.memory = NULL};
     const double *turns = NULL, *omega = NULL, *bead_angle = NULL;
     const fst_column_info *info = NULL;
-    fst_status status = fst_view_of(&view, table, options, INFINITY, INFINITY, error);
+    fst_status status = fst_view_of(&view, table, options, error);
     if (status == FST_OK)
         status = choose(&view, options, "r", NULL, &c, error);
     if (status == FST_OK)

@@ -1,5 +1,5 @@
 /* figure_setup.c - the sketch of the experiment, and the path as the paper's camera would see it. */
-#include "draw/figure_setup.h"
+#include <festoon/festoon_tools.h>
 
 #include "base/constants.h"
 #include "base/error.h"

@@ -19,13 +19,12 @@ static int varies(const fst_grid *grid, const char *key)
 
 fst_shown_units fst_sweep_units(const fst_grid *grid)
 {
-    fst_shown_units units = FST_SHOWN_SCALED;
-    if (varies(grid, "magnet.half_length") || varies(grid, "friction.gamma"))
-        return FST_SHOWN_AS_GIVEN;
+    const char *keys[FST_AXIS_LIMIT];
+    int count = 0;
     for (int i = 0; i < fst_grid_axis_count(grid); ++i)
-        if (fst_grid_axis_points(grid, i) > 1 && fst_units_of_parameter(fst_grid_key(grid, i)) == FST_SHOWN_LAB)
-            units = FST_SHOWN_LAB;
-    return units;
+        if (fst_grid_axis_points(grid, i) > 1)
+            keys[count++] = fst_grid_key(grid, i);
+    return fst_units_over(keys, count);
 }
 
 /* The scales of the points; a scale that differs from point to point is NAN. */
@@ -53,6 +52,30 @@ static fst_status check_scale(const fst_grid *grid, const char *what, int same, 
                            key, what);
 }
 
+/* Whether listed values, which rise, are spaced by a factor rather than by a difference: whose steps are more
+ * alike. */
+static int rises_by_factors(const fst_grid *grid, int index)
+{
+    const int64_t count = fst_grid_axis_points(grid, index), stride = fst_grid_axis_stride(grid, index);
+    double least[2] = {INFINITY, INFINITY}, greatest[2] = {0.0, 0.0};
+    const double first = fst_grid_value(grid, index, 0),
+                 last = fst_grid_value(grid, index, (count - 1) * stride);
+    if (count < 4 || !(first > 0.0) || last < 5.0 * first)
+        return 0;
+    for (int64_t i = 1; i < count; ++i) {
+        const double before = fst_grid_value(grid, index, (i - 1) * stride);
+        const double here = fst_grid_value(grid, index, i * stride);
+        const double steps[2] = {log(here / before), here - before};
+        if (!(here > before))
+            return 0;
+        for (int k = 0; k < 2; ++k) {
+            least[k] = fmin(least[k], steps[k]);
+            greatest[k] = fmax(greatest[k], steps[k]);
+        }
+    }
+    return (greatest[0] - least[0]) / log(last / first) < (greatest[1] - least[1]) / (last - first);
+}
+
 fst_status fst_sweep_axis_of(const fst_grid *grid, int index, fst_shown_units units, fst_sweep_axis *axis,
                              fst_error *error)
 {
@@ -63,9 +86,12 @@ fst_status fst_sweep_axis_of(const fst_grid *grid, int index, fst_shown_units un
     *axis = (fst_sweep_axis){.index = index,
                              .count = fst_grid_axis_points(grid, index),
                              .factor = quantity.factor,
-                             .logarithmic = fst_grid_axis_spacing(grid, index) == FST_SPACING_LOG,
+                             .logarithmic = fst_grid_axis_spacing(grid, index) == FST_SPACING_LOG ||
+                                            rises_by_factors(grid, index),
                              .choice = info->kind == FST_KIND_CHOICE ? info : NULL};
     memcpy(axis->label, quantity.label, sizeof axis->label);
+    for (int64_t i = 0; axis->choice && i < axis->count; ++i)
+        axis->swept |= 1U << (int)fst_grid_value(grid, index, i * fst_grid_axis_stride(grid, index));
     return check_scale(grid, key, isfinite(quantity.factor), error);
 }
 
@@ -88,27 +114,45 @@ void fst_sweep_about(const fst_sweep_table *table, char *about, size_t size)
         (void)snprintf(about + strlen(about), size - strlen(about), "%s, ",
                        fst_dynamics_name((fst_dynamics)base->model_dynamics));
     const int64_t points = fst_grid_points(grid);
-    (void)snprintf(about + strlen(about), size - strlen(about), "%lld runs of %s%g turns of the magnet",
-                   (long long)(table->refine ? table->rows : points),
-                   base->run_until == FST_UNTIL_SETTLED ? "at most " : "", base->run_periods);
+    const int whole = table->refine || table->rows == points;
+    (void)snprintf(about + strlen(about), size - strlen(about), "%lld", (long long)table->rows);
+    if (!whole)
+        (void)snprintf(about + strlen(about), size - strlen(about), " of %lld", (long long)points);
+    (void)snprintf(about + strlen(about), size - strlen(about), " runs of %s%g turns of the magnet%s",
+                   base->run_until == FST_UNTIL_SETTLED ? "at most " : "", base->run_periods,
+                   whole ? "" : " (interrupted)");
     if (table->refine)
         (void)snprintf(about + strlen(about), size - strlen(about), " at %.3g %% of %lld points",
                        100.0 * (double)table->rows / (double)points, (long long)points);
 }
 
-double fst_sweep_axis_value(const fst_grid *grid, const fst_sweep_axis *axis, int64_t point)
+/* Which of the choices that occur this one is. */
+static int place_of_choice(unsigned swept, int choice)
 {
-    return axis->factor * fst_grid_value(grid, axis->index, point);
+    int place = 0;
+    for (int i = 0; i < choice; ++i)
+        if (swept >> i & 1U)
+            ++place;
+    return place;
 }
 
-void fst_sweep_choice_tics(const fst_param_info *choice, char *tics, size_t size)
+double fst_sweep_axis_value(const fst_grid *grid, const fst_sweep_axis *axis, int64_t point)
+{
+    const double value = fst_grid_value(grid, axis->index, point);
+    return axis->choice ? place_of_choice(axis->swept, (int)value) : axis->factor * value;
+}
+
+void fst_sweep_choice_tics(const fst_sweep_axis *axis, char *tics, size_t size)
 {
     (void)snprintf(tics, size, "(");
-    const char *name = choice->names;
-    for (int i = 0; *name; ++i) {
-        const size_t used = strlen(tics), length = strcspn(name, "|");
-        (void)snprintf(tics + used, size - used, "%s'%.*s' %d", i ? ", " : "", (int)length, name, i);
-        name += length + (name[length] == '|');
+    size_t length;
+    for (int i = 0, place = 0; *fst_name_at(axis->choice->names, i, &length); ++i) {
+        const size_t used = strlen(tics);
+        if (!(axis->swept >> i & 1U))
+            continue;
+        (void)snprintf(tics + used, size - used, "%s'%.*s' %d", place ? ", " : "", (int)length,
+                       fst_name_at(axis->choice->names, i, &length), place);
+        ++place;
     }
     const size_t used = strlen(tics);
     (void)snprintf(tics + used, size - used, ")");
@@ -119,7 +163,7 @@ int fst_sweep_result_tics(const char *key, char *tics, size_t size)
     const int regimes = strcmp(key, "regime") == 0;
     if (!regimes && strcmp(key, "symmetry") != 0)
         return 0;
-    const int count = regimes ? FST_REGIME_LIFTED + 1 : FST_SYMMETRY_S2 + 1;
+    const int count = regimes ? FST_REGIME_COUNT : FST_SYMMETRY_COUNT;
     (void)snprintf(tics, size, "(");
     for (int i = 0; i < count; ++i) {
         const char *name = regimes ? fst_regime_name((fst_regime)i) : fst_symmetry_name((fst_symmetry)i);
@@ -149,17 +193,15 @@ fst_status fst_sweep_quantity_of(const fst_grid *grid, const char *key, fst_show
 
 fst_colour fst_regime_colour(int regime)
 {
-    static const fst_colour colours[] = {
-        [FST_REGIME_UNDECIDED] = FST_COLOUR_GREY,    [FST_REGIME_LOCKED] = FST_COLOUR_BLUE,
-        [FST_REGIME_LIBRATING] = FST_COLOUR_SKY,     [FST_REGIME_COUNTER_ROTATING] = FST_COLOUR_GREEN,
-        [FST_REGIME_COROTATING] = FST_COLOUR_PURPLE, [FST_REGIME_CHAOTIC] = FST_COLOUR_VERMILION,
-        [FST_REGIME_EJECTED] = FST_COLOUR_BLACK,     [FST_REGIME_LIFTED] = FST_COLOUR_ORANGE};
+#define COLOUR(NAME, name, doc, colour) FST_COLOUR_##colour,
+    static const fst_colour colours[] = {FST_REGIMES(COLOUR)};
+#undef COLOUR
     return colours[regime];
 }
 
 fst_look fst_regime_look(fst_regime regime)
 {
-    if ((int)regime < 0 || regime > FST_REGIME_LIFTED)
+    if ((unsigned)regime >= FST_REGIME_COUNT)
         return (fst_look){NULL, NULL};
     return (fst_look){fst_regime_name(regime), fst_colour_code(fst_regime_colour((int)regime))};
 }

@@ -7,16 +7,6 @@
 
 #include <festoon/festoon_tools.h>
 
-/* An axis of a sweep as the figure shows it, with its values in the wanted unit. */
-typedef struct fst_sweep_axis {
-    int index; /* its index in the grid */
-    int64_t count;
-    double factor;                /* from the grid's unit to the wanted one */
-    int logarithmic;              /* its values are spaced logarithmically */
-    const fst_param_info *choice; /* set for a choice, whose values have names; NULL: its values are numbers */
-    char label[128];              /* "drive frequency (Hz)" */
-} fst_sweep_axis;
-
 /* The units of a figure for which nobody asked for any: those of the laboratory where a varied parameter has
  * one, else scaled ones; as given where a varied parameter is a unit itself. */
 fst_shown_units fst_sweep_units(const fst_grid *grid);
@@ -27,15 +17,11 @@ void fst_sweep_words(const char *label, char words[128]);
 /* Add to `about` what is the same at all points, and how many were computed. */
 void fst_sweep_about(const fst_sweep_table *table, char *about, size_t size);
 
-/* FST_BAD_INPUT: a varied parameter changes the wanted units. */
-fst_status fst_sweep_axis_of(const fst_grid *grid, int index, fst_shown_units units, fst_sweep_axis *axis,
-                             fst_error *error);
-
 /* The value of an axis at a point, in the figure's unit. */
 double fst_sweep_axis_value(const fst_grid *grid, const fst_sweep_axis *axis, int64_t point);
 
-/* gnuplot's tics for an axis that is a choice, "('rigid' 0, 'farago2020' 1)". */
-void fst_sweep_choice_tics(const fst_param_info *choice, char *tics, size_t size);
+/* gnuplot's tics for an axis that is a choice, "('rigid' 0, 'farago2020' 1)": the values that occur. */
+void fst_sweep_choice_tics(const fst_sweep_axis *axis, char *tics, size_t size);
 
 /* gnuplot's tics for values that are names: those of regimes or symmetries; 0: `key` is neither. */
 int fst_sweep_result_tics(const char *key, char *tics, size_t size);

@@ -3,16 +3,16 @@
 
 #include "base/constants.h"
 #include "base/error.h"
-#include "draw/chart.h"
+#include <festoon/festoon_tools.h>
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_KEYS = 8, REGIMES = FST_REGIME_LIFTED + 1, MOST_POINTS = 10000 };
+enum { MOST_KEYS = 8, MOST_POINTS = 10000 };
 
 typedef struct drawing {
-    double *x, *by_regime; /* by_regime[(panel * REGIMES + regime) * points + i] */
-    fst_chart_curve curves[MOST_KEYS * REGIMES];
+    double *x, *by_regime; /* by_regime[(panel * FST_REGIME_COUNT + regime) * points + i] */
+    fst_chart_curve curves[MOST_KEYS * FST_REGIME_COUNT];
     fst_chart_panel panels[MOST_KEYS];
     int curve_count, panel_count;
     size_t points;   /* how many are drawn */
@@ -41,8 +41,8 @@ static void mention_empty(drawing *d, const char *label)
  * regimes. */
 static void add_regimes(drawing *d, int panel, const double *regime, const double *values)
 {
-    for (int r = 0; r < REGIMES; ++r) {
-        double *y = d->by_regime + (size_t)(panel * REGIMES + r) * d->points;
+    for (int r = 0; r < FST_REGIME_COUNT; ++r) {
+        double *y = d->by_regime + (size_t)(panel * FST_REGIME_COUNT + r) * d->points;
         int occurs = 0;
         for (size_t i = 0; i < d->points; ++i) {
             y[i] = regime[i] == r ? values[i] : NAN;
@@ -88,7 +88,8 @@ static void add_panels(drawing *d, const fst_sweep_table *table, const fst_sweep
         if (fst_sweep_result_tics(quantities[k].key, d->tics[d->panel_count - 1], sizeof d->tics[0])) {
             panel->tics = d->tics[d->panel_count - 1];
             panel->low = -0.5;
-            panel->high = (strcmp(quantities[k].key, "regime") == 0 ? REGIMES : FST_SYMMETRY_S2 + 1) - 0.5;
+            panel->high =
+                (strcmp(quantities[k].key, "regime") == 0 ? FST_REGIME_COUNT : FST_SYMMETRY_COUNT) - 0.5;
         }
         const int first = d->curve_count;
         if (regime)
@@ -150,7 +151,7 @@ fst_status fst_figure_sweep_curves(const fst_sweep_table *table, const fst_sweep
     const size_t all = (size_t)(table->refine ? table->rows : fst_grid_points(table->grid));
     const size_t step = all > 0 ? (all + MOST_POINTS - 1) / MOST_POINTS : 1,
                  points = all / step + (all % step > 0);
-    double *memory = malloc((1 + MOST_KEYS * REGIMES) * (points + 1) * sizeof *memory);
+    double *memory = malloc((1 + MOST_KEYS * FST_REGIME_COUNT) * (points + 1) * sizeof *memory);
     int64_t *chosen = malloc((points + 1) * sizeof *chosen);
     if (!d || !memory || !chosen) {
         free(d);
@@ -175,7 +176,7 @@ fst_status fst_figure_sweep_curves(const fst_sweep_table *table, const fst_sweep
     add_panels(d, table, quantities, count);
     char tics[512] = "";
     if (axis->choice)
-        fst_sweep_choice_tics(axis->choice, tics, sizeof tics);
+        fst_sweep_choice_tics(axis, tics, sizeof tics);
     const double scale = scale_of_drive(table->grid, axis);
     const fst_chart chart = {.title = d->title,
                              .about = d->about,

@@ -8,7 +8,6 @@
 #include <string.h>
 
 enum {
-    REGIMES = FST_REGIME_LIFTED + 1,
     MOST_CELLS = 1024,
     LEFT = 62, /* pixels about the map */
     NAMES = 108,
@@ -18,9 +17,6 @@ enum {
     SCALE = 72, /* for the scale of colours */
     TICS = 7    /* that point outwards */
 };
-
-/* How dark a cell is whose regime was not computed, but follows from its neighbours. */
-#define PALE "0.5"
 
 /* A value of an axis and the points that have it. */
 typedef struct place {
@@ -110,49 +106,39 @@ static double value_at(const map *m, int64_t row, int64_t column)
     return m->table->values[m->up.places[row].offset + m->right.places[column].offset];
 }
 
-/* Whether the value follows from others, because the sweep is refined. */
-static int is_filled(const map *m, int64_t row, int64_t column)
-{
-    return m->table->refine && !m->table->computed[m->up.places[row].offset + m->right.places[column].offset];
-}
-
 /* ------------------------------------------------------------------ drawing */
 
-/* The upper end of a box that ends with cell `last`.  Boxes overlap by about a pixel, so that no seams show;
- * between different cells not by more than a part of one.  Filled cells of different regimes never touch,
- * because what was computed lies between them, and is drawn over them. */
-static double upper_end(const side *s, const fst_sweep_axis *axis, int64_t last, int filled)
+/* The upper end of a box that ends with cell `last`.  Boxes overlap by a part of a pixel, so that no seams show. */
+static double upper_end(const side *s, const fst_sweep_axis *axis, int64_t last)
 {
     const double edge = s->edges[last + 1];
     if (last + 1 == s->count)
         return edge;
     const double pixel = 1e-3 * axis_length(axis, s->edges[0], s->edges[s->count]);
     const double part = 0.3 * axis_length(axis, edge, s->edges[last + 2]);
-    const double beyond =
-        filled ? fmin(2.0 * pixel, axis_length(axis, edge, s->edges[s->count])) : fmin(pixel, part);
+    const double beyond = fmin(pixel, part);
     return axis->logarithmic ? edge * exp(beyond) : edge + beyond;
 }
 
-/* Draw the cells of one regime that were computed, or filled in; or all of them (regime < 0).  Neighbouring
- * cells of a row with the same regime become one box, which keeps the file small. */
-static void write_cells(fst_figure_file *figure, const map *m, int regime, int filled)
+/* Draw the cells of one regime, or all of them (regime < 0).  Neighbouring cells of a row with the same regime
+ * become one box, which keeps the file small.  A refined map has one colour for a regime, whether a point was run
+ * or lies between runs that agree: two would look like a weave, because the coarse grid was run everywhere. */
+static void write_cells(fst_figure_file *figure, const map *m, int regime)
 {
     char name[24];
-    (void)snprintf(name, sizeof name, regime < 0 ? "cells" : filled ? "filled-%d" : "cells-%d", regime);
+    (void)snprintf(name, sizeof name, regime < 0 ? "cells" : "cells-%d", regime);
     fst_figure_block(figure, name, "x y x_low x_high y_low y_high value");
     for (int64_t row = 0; row < m->up.count; ++row)
         for (int64_t column = 0; column < m->right.count;) {
             const double value = value_at(m, row, column);
-            const int kind = is_filled(m, row, column);
             int64_t next = column + 1;
-            while (m->regimes && next < m->right.count && value_at(m, row, next) == value &&
-                   is_filled(m, row, next) == kind)
+            while (m->regimes && next < m->right.count && value_at(m, row, next) == value)
                 ++next;
-            if (regime < 0 ? isfinite(value) : value == regime && kind == filled)
+            if (regime < 0 ? isfinite(value) : value == regime)
                 (void)fprintf(figure->data, "%.7g %.7g %.9g %.9g %.9g %.9g %.7g\n",
                               m->right.places[column].value, m->up.places[row].value, m->right.edges[column],
-                              upper_end(&m->right, &m->axes[1], next - 1, kind), m->up.edges[row],
-                              upper_end(&m->up, &m->axes[0], row, kind), value * m->factor);
+                              upper_end(&m->right, &m->axes[1], next - 1), m->up.edges[row],
+                              upper_end(&m->up, &m->axes[0], row), value * m->factor);
             column = next;
         }
 }
@@ -163,26 +149,24 @@ static void write_axis(fst_figure_file *figure, const fst_sweep_axis *axis, cons
         fst_figure_logarithmic(figure, letter, s->edges[0], s->edges[s->count]);
     if (axis->choice) {
         char tics[512];
-        fst_sweep_choice_tics(axis->choice, tics, sizeof tics);
+        fst_sweep_choice_tics(axis, tics, sizeof tics);
         (void)fprintf(figure->script, "set %stics %s\n", letter, tics);
     }
     (void)fprintf(figure->script, "set %srange [%.9g:%.9g]\n", letter, s->edges[0], s->edges[s->count]);
 }
 
-static void write_regimes(fst_figure_file *figure, const map *m, const int occurs[REGIMES])
+static void write_regimes(fst_figure_file *figure, const map *m, const int occurs[FST_REGIME_COUNT])
 {
     (void)fputs("plot ", figure->script);
-    for (int filled = m->table->refine > 0; filled >= 0; --filled) /* computed cells lie over filled ones */
-        for (int r = 0; r < REGIMES; ++r)
-            if (occurs[r]) {
-                write_cells(figure, m, r, filled);
-                (void)fprintf(
-                    figure->script,
-                    "data index '%s-%d' using 1:2:3:4:5:6 with boxxyerror fillstyle solid %s noborder "
-                    "lc rgb '%s' notitle, \\\n     ",
-                    filled ? "filled" : "cells", r, filled ? PALE : "1.0",
-                    fst_colour_code(fst_regime_colour(r)));
-            }
+    for (int r = 0; r < FST_REGIME_COUNT; ++r)
+        if (occurs[r]) {
+            write_cells(figure, m, r);
+            (void)fprintf(
+                figure->script,
+                "data index 'cells-%d' using 1:2:3:4:5:6 with boxxyerror fillstyle solid 1.0 noborder "
+                "lc rgb '%s' notitle, \\\n     ",
+                r, fst_colour_code(fst_regime_colour(r)));
+        }
     (void)fputs("NaN notitle\n", figure->script);
 }
 
@@ -200,7 +184,7 @@ static void write_heat(fst_figure_file *figure, const map *m, const char *label,
     fst_figure_palette(figure, least < 0 && greatest > 0 ? FST_PALETTE_DIVERGING : FST_PALETTE_LINE);
     if (least < 0 && greatest > 0)
         (void)fprintf(figure->script, "set cbrange [%.9g:%.9g]\n", -both, both);
-    write_cells(figure, m, -1, 0);
+    write_cells(figure, m, -1);
     (void)fputs("set cbtics in\n", figure->script);
     fst_figure_colour_scale(figure, height, label,
                             (const double[4]){left, FST_FIGURE_WIDTH - RIGHT, scale + TICS, scale + TICS + 12});
@@ -219,7 +203,8 @@ static int64_t blank_points(const map *m)
 }
 
 /* What is shown, and how many points have no value. */
-static fst_legend make_legend(const map *m, const fst_sweep_quantity *quantity, const int occurs[REGIMES])
+static fst_legend make_legend(const map *m, const fst_sweep_quantity *quantity,
+                              const int occurs[FST_REGIME_COUNT])
 {
     fst_legend legend = {.count = 0};
     const int64_t points = fst_grid_points(m->table->grid), blank = blank_points(m);
@@ -239,12 +224,12 @@ static fst_legend make_legend(const map *m, const fst_sweep_quantity *quantity, 
     used = strlen(legend.about);
     if (m->table->refine)
         (void)snprintf(legend.about + used, sizeof legend.about - used, "; %s",
-                       m->regimes ? "pale: not run, but between runs that agree" : "interpolated between them");
+                       m->regimes ? "the others lie between runs that agree" : "interpolated between them");
     used = strlen(legend.about);
     if (blank > 0)
         (void)snprintf(legend.about + used, sizeof legend.about - used,
                        "; white: %lld of %lld points without a value", (long long)blank, (long long)points);
-    for (int r = 0; r < REGIMES; ++r)
+    for (int r = 0; r < FST_REGIME_COUNT; ++r)
         if (occurs[r]) {
             char style[64];
             (void)snprintf(style, sizeof style, "fs solid 1.0 noborder lc rgb '%s'",
@@ -265,7 +250,7 @@ static fst_status draw(map *m, const fst_sweep_quantity *quantity, const char *o
         status = lay_side(&m->right, grid, &m->axes[1], error);
     if (status != FST_OK)
         return status;
-    int occurs[REGIMES] = {0};
+    int occurs[FST_REGIME_COUNT] = {0};
     for (int64_t i = 0; m->regimes && i < fst_grid_points(grid); ++i)
         if (isfinite(m->table->values[i]))
             occurs[(int)m->table->values[i]] = 1;

@@ -42,6 +42,7 @@ fst_status fst_figure_trajectory(const fst_table *table, const char *out, const 
         return fst_figure_section(table, out, options, error);
     case FST_FIGURE_RAMP:
         return fst_figure_ramp(table, out, options, error);
+    default:
+        return fst_fail(error, FST_BAD_INPUT, "fst_figure_trajectory", "no such kind of figure");
     }
-    return fst_fail(error, FST_BAD_INPUT, "fst_figure_trajectory", "no such kind of figure");
 }

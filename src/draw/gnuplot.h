@@ -2,14 +2,14 @@
 #ifndef FST_DRAW_GNUPLOT_H
 #define FST_DRAW_GNUPLOT_H
 
-#include <festoon/festoon.h>
+#include <festoon/festoon_tools.h>
 
 #include <stdio.h>
 
 /* Write `text` as a gnuplot string.  Within single quotes gnuplot replaces and runs nothing; a quote is
  * doubled.  A line end would end the string, so each control character becomes '?'.  Every text that does not
  * stand in this program's sources must reach gnuplot through this function. */
-void fst_gnuplot_quote(FILE *out, const char *text);
+void fst_gnuplot_quote(fst_printed *printed, const char *text);
 
 /* Run gnuplot in `directory` on the file `script` there.  Its variable `data` becomes the name of the data
  * file.  The figure comes back through a pipe and is written to `figure` here: gnuplot itself would not tell of

@@ -32,6 +32,14 @@ static int letters(const char *text)
     return count;
 }
 
+/* Whether a line may end at a blank: not between a number and its unit or its error, "17.62 ± 0.01 mm". */
+static int may_end(const char *text, size_t blank)
+{
+    const char before = blank > 0 ? text[blank - 1] : ' ';
+    const int after_sign = blank > 1 && memcmp(text + blank - 2, "±", 2) == 0;
+    return !after_sign && !strchr("0123456789=", before) && !strchr("=", text[blank + 1]);
+}
+
 /* Break a text at blanks into lines of at most `longest` letters; returns how many lines there are. */
 static int break_lines(const char *text, int longest, char lines[MOST_LINES][LINE_SIZE])
 {
@@ -42,7 +50,7 @@ static int break_lines(const char *text, int longest, char lines[MOST_LINES][LIN
             seen += ((unsigned char)text[end] & 0xC0) != 0x80 && !strchr("_{}", text[end]);
             if (seen > longest && count + 1 < MOST_LINES)
                 break;
-            if (text[end] == ' ')
+            if (text[end] == ' ' && may_end(text, end))
                 blank = end;
         }
         if (text[end] && blank > 0)

@@ -18,12 +18,20 @@ typedef struct fst_magnet_body {
 int fst_magnet_bodies(const fst_params *params, double unit, double over_lines,
                       fst_magnet_body bodies[FST_PARTS_MAX]);
 
-/* Write the poles, turned by `angle` (rad), as the blocks 'north' and 'south' of a figure; returns which there
- * are, bits 1 and 2.  fst_figure_plot_poles() then plots their outlines, each clause ended by a comma. */
-int fst_figure_write_poles(fst_figure_file *figure, const fst_magnet_body *bodies, int count, double angle);
-void fst_figure_plot_poles(FILE *script, int which);
+/* The lines of a magnet that is not the bar of lines: the outlines of its poles, or of a measured field the places
+ * where it stands up most.  `length` makes l, they are turned by `angle` (rad), and `where` they are ends the words
+ * of the key: "below the plate".  0: no memory; it hangs on `memory` (fst_keep()). */
+int fst_magnet_lines(const fst_params *params, double length, double angle, const char *where,
+                     fst_picture_line lines[FST_PICTURE_LINES], int *count, void **memory);
+/* The outline of the bar's lines, and the lines themselves. */
+int fst_magnet_outline(const fst_params *params, double length, double angle, const char *words,
+                       fst_picture_line *line, void **memory);
+int fst_magnet_rows(const fst_groups *groups, double length, const char *words, fst_picture_line *line,
+                    void **memory);
 
-/* The key to these lines; `where` they are: "below the plate". */
-void fst_legend_add_poles(fst_legend *legend, const fst_magnet_body *bodies, int count, const char *where);
+/* Write such lines as data, plot them (each clause ended by a comma), and add them to the key. */
+void fst_figure_write_lines(fst_figure_file *figure, const fst_picture_line *lines, int count);
+void fst_figure_plot_lines(FILE *script, const fst_picture_line *lines, int count);
+void fst_legend_add_lines(fst_legend *legend, const fst_picture_line *lines, int count);
 
 #endif

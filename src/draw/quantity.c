@@ -49,7 +49,7 @@ static const word results[] = {
     {"phi_deg", "Φ"},
     {"slip", "slip of the contact |V|"},
     {"relaxation_time", "relaxation time"},
-    {"swing_ratio", "p = Δ+/Δ− − 1"},
+    {"swing_ratio", "inequality p of two swings in a row"},
     {"max_angle_deg", "greatest angle of n and B"},
     {"mean_b", "⟨|B|⟩"},
     {"std_b", "deviation of |B|"},
@@ -134,8 +134,10 @@ static fst_quantity length(const char *words, int in_metres, fst_shown_units uni
         units = in_metres ? FST_SHOWN_LAB : FST_SHOWN_SCALED;
     if (units == FST_SHOWN_SCALED)
         return labelled(in_metres ? 1.0 / unit : 1.0, words, "l");
-    return labelled((in_metres ? 1.0 : unit) * (units == FST_SHOWN_LAB ? 1e3 : 1.0), words,
-                    units == FST_SHOWN_LAB ? "mm" : "m");
+    int power = 0;
+    const char *name =
+        units == FST_SHOWN_LAB ? fst_unit_customary(FST_UNIT_LENGTH, &power) : fst_unit_name(FST_UNIT_LENGTH);
+    return labelled((in_metres ? 1.0 : unit) * pow(10.0, power), words, name);
 }
 
 /* "remanence z of part 0"; a size by its number, since its meaning depends on the kind of part. */
@@ -170,14 +172,20 @@ fst_quantity fst_quantity_of_parameter(const char *key, fst_shown_units units, c
         return drive(0, units == FST_SHOWN_LAB || units == FST_SHOWN_SI, scales->time);
     if (info->unit == FST_UNIT_LENGTH || strcmp(key, "start.r") == 0)
         return length(words, info->unit == FST_UNIT_LENGTH, units, scales->length);
-    if (info->unit == FST_UNIT_FIELD && units != FST_SHOWN_SI)
-        return labelled(1e3, words, "mT");
-    if (info->unit == FST_UNIT_SPEED && units != FST_SHOWN_SI)
-        return labelled(1e3, words, "mm/s");
-    if (info->unit == FST_UNIT_MASS && units != FST_SHOWN_SI)
-        return labelled(1e3, words, "g");
-    const int plain = info->kind != FST_KIND_REAL || info->unit == FST_UNIT_NUMBER;
-    return labelled(1.0, words, plain ? "" : fst_unit_name(info->unit));
+    if (info->kind != FST_KIND_REAL)
+        return labelled(1.0, words, "");
+    int power = 0;
+    const char *unit =
+        units == FST_SHOWN_SI ? fst_unit_name(info->unit) : fst_unit_customary(info->unit, &power);
+    return labelled(pow(10.0, power), words, unit);
+}
+
+/* An angular velocity in gamma that is shown as turns a second. */
+static void say_turns(const char *unit, const char *shown, char *words, size_t size)
+{
+    const size_t used = strlen(words);
+    if (strcmp(unit, "gamma") == 0 && strcmp(shown, "Hz") == 0)
+        (void)snprintf(words + used, size - used, "/2π");
 }
 
 fst_quantity fst_quantity_of_result(const char *key, const char *unit, fst_shown_units units,
@@ -186,14 +194,8 @@ fst_quantity fst_quantity_of_result(const char *key, const char *unit, fst_shown
     char words[96];
     const char *name;
     find_words(results, sizeof results / sizeof results[0], key, 0, words, sizeof words);
-    const double factor = fst_unit_shown(unit, units, scales, &name);
-    /* Circlings stand beside the drive's frequency, so both are turns a second. */
-    const int circling = strcmp(key, "mean_alpha_dot") == 0 || strcmp(key, "mean_phi_dot") == 0;
-    if (circling && name != unit) {
-        const size_t used = strlen(words);
-        (void)snprintf(words + used, sizeof words - used, "/2π");
-        return labelled(factor / FST_TWO_PI, words, "Hz");
-    }
+    const double factor = fst_number_shown(key, unit, units, scales, &name);
+    say_turns(unit, name, words, sizeof words);
     return labelled(factor, words, name);
 }
 
@@ -208,15 +210,21 @@ fst_quantity fst_quantity_of_column(const fst_column_info *column, fst_shown_uni
     if (strcmp(column->name, "load") == 0 && params->plate_gravity > 0.0)
         return labelled(scales.length / (scales.time * scales.time * params->plate_gravity), words,
                         "weights of the bead");
-    if (strcmp(column->name, "omega") == 0 && name != column->unit)
-        return labelled(factor / FST_TWO_PI, "drive frequency", "Hz");
+    if (strcmp(column->name, "omega") == 0 && strcmp(name, "Hz") == 0)
+        return labelled(factor, "drive frequency", name);
+    say_turns(column->unit, name, words, sizeof words);
     return labelled(factor, words, name);
 }
 
-fst_shown_units fst_units_of_parameter(const char *key)
+fst_shown_units fst_units_over(const char *const *keys, int count)
 {
-    const fst_param_info *info = fst_param_at(fst_param_find(key));
-    return info->kind == FST_KIND_REAL && info->unit != FST_UNIT_NUMBER && info->unit != FST_UNIT_ANGLE
-               ? FST_SHOWN_LAB
-               : FST_SHOWN_SCALED;
+    fst_shown_units units = FST_SHOWN_SCALED;
+    for (int i = 0; i < count; ++i) {
+        const fst_param_info *info = fst_param_at(fst_param_find(keys[i]));
+        if (strcmp(keys[i], "friction.gamma") == 0 || strcmp(keys[i], "magnet.half_length") == 0)
+            return FST_SHOWN_AS_GIVEN;
+        if (info->kind == FST_KIND_REAL && info->unit != FST_UNIT_NUMBER && info->unit != FST_UNIT_ANGLE)
+            units = FST_SHOWN_LAB;
+    }
+    return units;
 }

@@ -7,10 +7,9 @@
 
 const char *fst_colour_code(fst_colour colour)
 {
-    static const char *const codes[] = {
-        [FST_COLOUR_BLACK] = "#222222", [FST_COLOUR_BLUE] = "#0072b2",   [FST_COLOUR_VERMILION] = "#d55e00",
-        [FST_COLOUR_GREEN] = "#009e73", [FST_COLOUR_PURPLE] = "#cc79a7", [FST_COLOUR_GREY] = "#888888",
-        [FST_COLOUR_SKY] = "#56b4e9",   [FST_COLOUR_ORANGE] = "#e69f00"};
+#define CODE(NAME, name, code) code,
+    static const char *const codes[] = {FST_COLOURS(CODE)};
+#undef CODE
     return codes[colour];
 }
 
@@ -44,7 +43,7 @@ const char *fst_palette_definition(fst_palette palette)
         [FST_PALETTE_DIVERGING] = "-1 '#123f8c', -0.5 '#4f86cf', 0 '#bdbdbd', 0.5 '#e8894a', 1 '#b03000'",
         [FST_PALETTE_LINE] =
             "0 '#a8db34', 0.2 '#4ac16d', 0.4 '#1fa187', 0.6 '#2d708e', 0.8 '#414487', 1 '#440154'",
-        [FST_PALETTE_MAP] = "0 '#fbfdff', 0.35 '#d3e3f2', 0.7 '#8fbfe0', 1 '#4292c6'"};
+        [FST_PALETTE_MAP] = "0 '#f4f9fe', 0.3 '#c0dbef', 0.65 '#6fb0da', 1 '#2c7cba'"};
     return definitions[palette];
 }
 

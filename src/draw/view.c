@@ -19,11 +19,10 @@ static fst_status no_such_column(const char *option, const char *name, fst_error
     size_t used = 0;
     for (int i = 0; i < fst_column_count(); ++i)
         used += (size_t)snprintf(names + used, room - used, "%s%s", i ? "|" : "", fst_column_at(i)->name);
-    char nearest[64] = "";
-    (void)fst_nearest_name(name, names, nearest, sizeof nearest);
+    char suggestion[FST_SUGGESTION_SIZE];
+    (void)fst_suggest_name(name, names, suggestion);
     free(names);
-    return fst_fail(error, FST_BAD_INPUT, option,
-                    "a trajectory has no column \"%.60s\"; the nearest name is \"%s\"", name, nearest);
+    return fst_fail(error, FST_BAD_INPUT, option, "a trajectory has no column \"%.60s\"; %s", name, suggestion);
 }
 
 fst_status fst_view_column_for(const fst_view *view, const char *option, const char *name,
@@ -78,6 +77,23 @@ double fst_view_between(double x0, double v0, double x1, double v1, double h, do
            part * part * ((1.0 + 2.0 * rest) * x1 - rest * h * v1);
 }
 
+static int changes(double first, double last)
+{
+    return fabs(last - first) > 1e-9 * fabs(last);
+}
+
+/* Whether the drive is a ramp, which is shown as a whole. */
+static int is_ramp(const fst_table *table)
+{
+    const double *omega = fst_collected(table, "omega");
+    return omega && table->rows > 1 && changes(omega[0], omega[table->rows - 1]);
+}
+
+fst_figure_kind fst_figure_kind_of(const fst_table *table)
+{
+    return is_ramp(table) ? FST_FIGURE_RAMP : FST_FIGURE_PATH;
+}
+
 /* The drive period from which on a trajectory is shown unless the options say: the end of the discard.  A run
  * that ended once it had settled is shown from a whole period on that lies at least 5.5 before its end, when
  * the motion was known; one that ended before its discard, from its beginning. */
@@ -90,11 +106,23 @@ static double usual_from(const fst_table *table, const double *drive)
     return end > p->run_discard ? p->run_discard : 0.0;
 }
 
-/* Find the rows that are shown; where the options leave the end open, `turns` of the bead or `periods` of the
- * drive end the view. */
-static fst_status choose_rows(fst_view *view, const fst_figure_options *options, double turns, double periods,
-                              fst_error *error)
+/* How much a figure shows where the options leave the end open: turns of the bead, or periods of the drive,
+ * whichever ends first. */
+static const struct {
+    double turns, periods;
+} lengths[FST_FIGURE_COUNT] = {[FST_FIGURE_PATH] = {2.0, 30.0},
+                               [FST_FIGURE_LOCAL_N] = {2.0, 16.0},
+                               [FST_FIGURE_RADIUS_FIELD] = {INFINITY, 6.0},
+                               [FST_FIGURE_TIME] = {INFINITY, 8.0},
+                               [FST_FIGURE_SECTION] = {INFINITY, INFINITY},
+                               [FST_FIGURE_RAMP] = {INFINITY, INFINITY}};
+
+/* Find the rows that are shown. */
+static fst_status choose_rows(fst_view *view, const fst_figure_options *options, fst_error *error)
 {
+    const int whole = is_ramp(view->table);
+    const double turns = whole ? INFINITY : lengths[options->kind].turns;
+    const double periods = whole ? INFINITY : lengths[options->kind].periods;
     const double *drive, *alpha;
     fst_status status = fst_view_columns(view, error, "drive_turns", &drive, "alpha", &alpha, NULL);
     if (status != FST_OK)
@@ -128,7 +156,7 @@ static void describe(fst_view *view)
     const double hertz = view->gamma / (2.0 * FST_PI);
     const char *dynamics = fst_dynamics_name((fst_dynamics)p->model_dynamics);
     int used;
-    if (fabs(view->omega - view->first_omega) > 1e-9 * view->omega)
+    if (changes(view->first_omega, view->omega))
         used =
             snprintf(view->about, sizeof view->about, "ω = %.4g to %.4g (%.4g to %.4g Hz), dynamics %s",
                      view->first_omega, view->omega, view->first_omega * hertz, view->omega * hertz, dynamics);
@@ -155,7 +183,9 @@ fst_quantity fst_view_quantity(const fst_view *view, const fst_column_info *colu
 
 static void choose_units(fst_view *view, fst_shown_units units)
 {
-    const fst_params *p = &view->table->params;
+    fst_params settled = view->table->params;
+    (void)fst_params_settle(&settled, NULL); /* the caller may have changed them */
+    const fst_params *p = &settled;
     const fst_scales scales = {p->magnet_half_length, 1.0 / p->friction_gamma, fst_bead_mass(p), NAN};
     if (units == FST_SHOWN_AS_GIVEN)
         units = isfinite(p->drive_omega) ? FST_SHOWN_SCALED : FST_SHOWN_LAB;
@@ -163,12 +193,13 @@ static void choose_units(fst_view *view, fst_shown_units units)
     view->length = fst_unit_shown("l", units, &scales, &view->length_unit);
 }
 
-fst_status fst_view_of(fst_view *view, const fst_table *table, const fst_figure_options *options, double turns,
-                       double periods, fst_error *error)
+fst_status fst_view_of(fst_view *view, const fst_table *table, const fst_figure_options *options,
+                       fst_error *error)
 {
     *view = (fst_view){.table = table, .gamma = table->params.friction_gamma, .title = options->title};
-    choose_units(view, options->units);
-    fst_status status = choose_rows(view, options, turns, periods, error);
+    const int in_millimetres = options->kind == FST_FIGURE_PATH && options->units == FST_SHOWN_AS_GIVEN;
+    choose_units(view, in_millimetres ? FST_SHOWN_LAB : options->units);
+    fst_status status = choose_rows(view, options, error);
     const double *omega;
     if (status == FST_OK)
         status = fst_view_columns(view, error, "omega", &omega, NULL);
@@ -178,4 +209,16 @@ fst_status fst_view_of(fst_view *view, const fst_table *table, const fst_figure_
     view->omega = omega[view->last - 1];
     describe(view);
     return FST_OK;
+}
+
+fst_status fst_figure_part_of(const fst_table *table, const fst_figure_options *options, fst_figure_part *part,
+                              fst_error *error)
+{
+    fst_view view;
+    const fst_status status = fst_view_of(&view, table, options, error);
+    if (status == FST_OK) {
+        *part = (fst_figure_part){.first = view.first, .last = view.last, .units = view.units};
+        memcpy(part->about, view.about, sizeof part->about);
+    }
+    return status;
 }

@@ -19,10 +19,10 @@ typedef struct fst_view {
 } fst_view;
 
 /* Find the rows from options->from to options->to drive periods.  Open ends: the view begins at the discard,
- * and lasts for `turns` revolutions of the bead about the axis or `periods` drive periods, whichever ends
- * first.  The title is options->title, or made from the scene.  FST_BAD_INPUT: there are no rows. */
-fst_status fst_view_of(fst_view *view, const fst_table *table, const fst_figure_options *options, double turns,
-                       double periods, fst_error *error);
+ * and lasts as long as suits options->kind.  The title is options->title, or made from the scene.
+ * FST_BAD_INPUT: there are no rows. */
+fst_status fst_view_of(fst_view *view, const fst_table *table, const fst_figure_options *options,
+                       fst_error *error);
 
 /* A legend with the title options->title or, without one, `what`. */
 fst_legend fst_view_legend(const fst_view *view, const char *what);

@@ -13,7 +13,6 @@
 #include "base/watch.h"
 #include "film/camera_paint.h"
 #include "host/whole_file.h"
-#include "io/collect.h"
 #include "io/ffmpeg.h"
 #include "io/film_file.h"
 
@@ -60,7 +59,7 @@ typedef struct camera {
     const fst_camera_options *options;
     fst_camera_paint paint;
     fst_camera_motion motion;
-    fst_ffmpeg process;
+    fst_process process;
     char folder[4096]; /* the folder of images; "": the frames go to ffmpeg */
     unsigned char *pixels;
     fst_whole_file truth;
@@ -211,7 +210,7 @@ static fst_status give_frame(camera *c, int index, fst_error *error)
 {
     const size_t size = (size_t)c->paint.width * (size_t)c->paint.height;
     if (!c->folder[0])
-        return fst_ffmpeg_frame(&c->process, c->pixels, size, error);
+        return fst_process_write(&c->process, c->pixels, size, error);
     char path[FRAME_PATH];
     fst_whole_file file;
     name_frame(c, index, path);

@@ -3,15 +3,12 @@
 
 #include <math.h>
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+#include "base/dot.h"
 
 /* `v`, turned by `angle` about the horizontal unit vector at the polar angle `axis`. */
 static void tip(double v[3], double axis, double angle)
 {
-    const double a[3] = {cos(axis), sin(axis), 0.0}, c = cos(angle), s = sin(angle), along = dot(a, v);
+    const double a[3] = {cos(axis), sin(axis), 0.0}, c = cos(angle), s = sin(angle), along = fst_dot(a, v, 3);
     const double w[3] = {a[1] * v[2], -a[0] * v[2], a[0] * v[1] - a[1] * v[0]};
     for (int i = 0; i < 3; ++i)
         v[i] = c * v[i] + s * w[i] + (1.0 - c) * along * a[i];
@@ -39,9 +36,9 @@ void fst_camera_view_project(const fst_camera_view *view, const double place[3],
     double d[3];
     for (int i = 0; i < 3; ++i)
         d[i] = place[i] - view->place[i];
-    const double scale = view->focal / dot(d, view->ahead);
-    seen[0] = view->middle[0] + scale * dot(d, view->right);
-    seen[1] = view->middle[1] - scale * dot(d, view->up);
+    const double scale = view->focal / fst_dot(d, view->ahead, 3);
+    seen[0] = view->middle[0] + scale * fst_dot(d, view->right, 3);
+    seen[1] = view->middle[1] - scale * fst_dot(d, view->up, 3);
 }
 
 void fst_camera_view_ray(const fst_camera_view *view, double column, double row, double direction[3])

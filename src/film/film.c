@@ -19,7 +19,6 @@
 #include "film/motion.h"
 #include "host/module.h"
 #include "host/whole_file.h"
-#include "io/collect.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -56,7 +55,7 @@ typedef struct film {
     fst_film_canvas *canvas;
     fst_film_layout layout;
     fst_film_motion motion;
-    fst_ffmpeg process;
+    fst_process process;
     char folder[4096]; /* the folder for the frames; "": they go to ffmpeg */
     double *trail;     /* the x of all its points, then their y, then their shades */
     size_t trail_room;
@@ -121,7 +120,9 @@ static void add_bodies(fst_film_layout *layout, const fst_params *p)
 
 static void set_layout(film *f, const fst_table *table)
 {
-    const fst_params *p = &table->params;
+    fst_params settled = table->params;
+    (void)fst_params_settle(&settled, NULL); /* the caller may have changed them */
+    const fst_params *p = &settled;
     const fst_film_motion *m = &f->motion;
     double reach = 0.0, omega = fst_collected(table, "omega")[m->first];
     for (size_t row = m->first; row <= m->last; ++row)
@@ -207,9 +208,9 @@ static fst_status give_frame(film *f, int index, fst_error *error)
     fst_status status = FST_OK;
     size_t row = 4 * (size_t)f->layout.width;
     if ((size_t)stride == row)
-        return fst_ffmpeg_frame(&f->process, pixels, row * (size_t)f->layout.height, error);
+        return fst_process_write(&f->process, pixels, row * (size_t)f->layout.height, error);
     for (int y = 0; y < f->layout.height && status == FST_OK; ++y)
-        status = fst_ffmpeg_frame(&f->process, pixels + (size_t)y * (size_t)stride, row, error);
+        status = fst_process_write(&f->process, pixels + (size_t)y * (size_t)stride, row, error);
     return status;
 }
 
@@ -300,21 +301,6 @@ static fst_status frames_into_process(film *f, const char *out, const char *form
     return status;
 }
 
-/* Without ffmpeg: keep the frames, in a folder beside the place of the film. */
-static fst_status frames_kept(film *f, const char *out, fst_error *error)
-{
-    char folder[4096];
-    (void)snprintf(folder, sizeof folder, "%.*s-frames", (int)(strlen(out) - 4), out);
-    fst_status status = frames_into_folder(f, folder, error);
-    if (status != FST_OK)
-        return status;
-    return fst_fail(
-        error, FST_UNAVAILABLE, out,
-        "films need ffmpeg, which is not installed: install the package ffmpeg; the %d frames are kept "
-        "in %s",
-        f->frames, folder);
-}
-
 static const char *format_of(const char *out)
 {
     size_t length = strlen(out);
@@ -327,8 +313,13 @@ static fst_status produce(film *f, const char *out, fst_error *error)
     const char *format = format_of(out);
     if (!format)
         return frames_into_folder(f, out, error);
-    fst_status status = frames_into_process(f, out, format, error);
-    return status == FST_UNAVAILABLE ? frames_kept(f, out, error) : status;
+    const fst_status status = frames_into_process(f, out, format, error);
+    return status == FST_UNAVAILABLE
+               ? fst_fail(
+                     error, FST_UNAVAILABLE, out,
+                     "films need ffmpeg, which is not installed: install the package ffmpeg, or name a folder, "
+                     "which gets the frames as pictures")
+               : status;
 }
 
 fst_status fst_film(const fst_table *table, const char *out, const fst_film_options *options, fst_error *error)

@@ -9,14 +9,13 @@
 
 #include "base/constants.h"
 #include "base/error.h"
-#include "io/collect.h"
 
 #include <stdio.h>
 #include <string.h>
 
 static fst_status find_colour(fst_film_motion *motion, const char *colour, fst_error *error)
 {
-    char names[1024] = "", nearest[32];
+    char names[1024] = "", suggestion[FST_SUGGESTION_SIZE];
     for (int i = 0; i < fst_column_count(); ++i) {
         const char *name = fst_column_at(i)->name;
         if (!strcmp(name, colour)) {
@@ -27,9 +26,8 @@ static fst_status find_colour(fst_film_motion *motion, const char *colour, fst_e
         size_t used = strlen(names);
         (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "", name);
     }
-    fst_nearest_name(colour, names, nearest, sizeof nearest);
-    return fst_fail(error, FST_BAD_INPUT, "fst_film_options.colour", "no column \"%.60s\"; the nearest is %s",
-                    colour, nearest);
+    return fst_fail(error, FST_BAD_INPUT, "fst_film_options.colour", "no column \"%.60s\"; %s", colour,
+                    fst_suggest_name(colour, names, suggestion));
 }
 
 /* The same ranges as in figures: from -1 to 1 for n_z, symmetric for both signs, and from 0 where the least

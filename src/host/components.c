@@ -25,43 +25,43 @@ static int program_present(const char *name)
     return 0;
 }
 
-const char *fst_tools_components(void)
+#ifdef FESTOON_HAVE_EXPAT
+enum { HAVE_EXPAT = 1 };
+#else
+enum { HAVE_EXPAT = 0 };
+#endif
+
+/* Append ", NAME yes", or NAME no with what helps. */
+static void append(char *text, const char *name, int usable, const char *what_helps)
 {
-    static const char *const texts[2][2][2][2][2][2][2] = {
-#define GNUPLOT(yes_or_no)                                                                                     \
-    {HDF5(yes_or_no ", hdf5 no (install libhdf5-dev and build again)"), HDF5(yes_or_no ", hdf5 yes")}
-#define HDF5(before)                                                                                           \
-    {                                                                                                          \
-        CAIRO(before ", cairo no (install libcairo2-dev and build again)"), CAIRO(before ", cairo yes")        \
-    }
-#define CAIRO(before)                                                                                          \
-    {                                                                                                          \
-        MPI(before ", mpi no (install libopenmpi-dev and build again)"), MPI(before ", mpi yes")               \
-    }
-#define MPI(before)                                                                                            \
-    {                                                                                                          \
-        LAPACK(before ", lapack no (install liblapacke-dev and build again)"), LAPACK(before ", lapack yes")   \
-    }
-#define LAPACK(before)                                                                                         \
-    {                                                                                                          \
-        CMINPACK(before ", cminpack no (install libcminpack-dev and build again)"),                            \
-            CMINPACK(before ", cminpack yes")                                                                  \
-    }
-#define CMINPACK(before)                                                                                       \
-    {                                                                                                          \
-        before ", ffmpeg no (install ffmpeg)", before ", ffmpeg yes"                                           \
-    }
-        GNUPLOT("gnuplot no (install gnuplot-nox)"), GNUPLOT("gnuplot yes")
-#undef GNUPLOT
-#undef HDF5
-#undef CAIRO
-#undef MPI
-#undef LAPACK
-#undef CMINPACK
-    };
-    const int gnuplot = program_present("gnuplot"), ffmpeg = program_present("ffmpeg");
-    const int hdf5 = fst_module_present(FST_HDF5_MODULE), cairo = fst_module_present(FST_CAIRO_MODULE);
-    const int mpi = fst_module_present(FST_MPI_MODULE);
-    const int cminpack = fst_module_present(FST_MINPACK_MODULE);
-    return texts[gnuplot][hdf5][cairo][mpi][fst_lapack_present()][cminpack][ffmpeg];
+    const size_t used = strlen(text);
+    (void)snprintf(text + used, FST_COMPONENTS_SIZE - used, "%s%s %s%s%s%s", used ? ", " : "", name,
+                   usable ? "yes" : "no", usable ? "" : " (", usable ? "" : what_helps, usable ? "" : ")");
+}
+
+/* A module may have been built, and lack the library that it calls: then it is told which. */
+static void append_module(char *text, const char *name, const char *file, const char *package)
+{
+    char lacks[128], what_helps[256];
+    const int usable = fst_module_usable(file, lacks, sizeof lacks);
+    if (lacks[0])
+        (void)snprintf(what_helps, sizeof what_helps,
+                       "%s is not on this machine: install the package that has it", lacks);
+    else
+        (void)snprintf(what_helps, sizeof what_helps, "install %s and build again", package);
+    append(text, name, usable, what_helps);
+}
+
+const char *fst_tools_components(char text[FST_COMPONENTS_SIZE])
+{
+    text[0] = '\0';
+    append(text, "gnuplot", program_present("gnuplot"), "install gnuplot-nox");
+    append_module(text, "hdf5", FST_HDF5_MODULE, "libhdf5-dev");
+    append_module(text, "cairo", FST_CAIRO_MODULE, "libcairo2-dev");
+    append_module(text, "mpi", FST_MPI_MODULE, "libopenmpi-dev");
+    append_module(text, "lapack", FST_LAPACK_MODULE, "liblapacke-dev");
+    append_module(text, "cminpack", FST_MINPACK_MODULE, "libcminpack-dev");
+    append(text, "expat", HAVE_EXPAT, "install libexpat1-dev and build again");
+    append(text, "ffmpeg", program_present("ffmpeg"), "install ffmpeg");
+    return text;
 }

@@ -61,16 +61,16 @@ static int descriptor_holds(const char *number, off_t place)
     return holds;
 }
 
-int fst_holds_lock(const char *path, off_t place)
+int fst_holds_lock(const struct stat *file, off_t place)
 {
     char link[64];
-    struct stat wanted, found;
+    struct stat found;
     int holds = 0;
-    DIR *descriptors = stat(path, &wanted) == 0 ? opendir("/proc/self/fd") : NULL;
+    DIR *descriptors = opendir("/proc/self/fd");
     for (const struct dirent *entry = descriptors ? readdir(descriptors) : NULL; entry && !holds;
          entry = readdir(descriptors)) {
         (void)snprintf(link, sizeof link, "/proc/self/fd/%.20s", entry->d_name);
-        holds = stat(link, &found) == 0 && found.st_dev == wanted.st_dev && found.st_ino == wanted.st_ino &&
+        holds = stat(link, &found) == 0 && found.st_dev == file->st_dev && found.st_ino == file->st_ino &&
                 descriptor_holds(entry->d_name, place);
     }
     if (descriptors)

@@ -10,6 +10,7 @@
 #ifndef FST_HOST_FILE_LOCK_H
 #define FST_HOST_FILE_LOCK_H
 
+#include <sys/stat.h>
 #include <sys/types.h>
 
 /* Places are counted from 2^48, where the greatest possible database of SQLite ends.  A file that is being
@@ -21,9 +22,9 @@ enum { FST_LOCK_SWEEP = 0, FST_LOCK_WRITING = 1 << 20 };
  * errno: EAGAIN or EACCES where another open file has the lock. */
 int fst_lock_byte(int descriptor, off_t place, int wait);
 
-/* Whether this process holds the lock of a byte of a file, which is not opened for it: /proc tells.  0 where
+/* Whether this process holds the lock of a byte of a file, which is not opened for that: /proc tells.  0 where
  * that is not to be found out. */
-int fst_holds_lock(const char *path, off_t place);
+int fst_holds_lock(const struct stat *file, off_t place);
 
 /* The first place that another open file has locked, counted from `place`; -1: none of the `count` places is
  * locked. */

@@ -103,7 +103,10 @@ fst_status fst_lab_address(const fst_params *params, char address[FST_LAB_ADDRES
     if (params->magnet_shape == FST_MAGNET_GRID)
         return fst_fail(error, FST_BAD_INPUT, "magnet.shape", "the page reads no measured map of a magnet");
     if (!find_page(path))
-        return fst_fail(error, FST_UNAVAILABLE, PAGE, "the page is not beside the library: make lab builds it");
+        return fst_fail(
+            error, FST_UNAVAILABLE, PAGE,
+            "the page is not installed: in festoon's source make lab builds it, and make install or make deb "
+            "after that installs it with the program");
     if (!is_of_this_version(path))
         return fst_fail(error, FST_UNAVAILABLE, path,
                         "the page is of another version than this program: make lab builds it anew");
@@ -156,17 +159,17 @@ static int is_set(const char *name)
 
 fst_status fst_lab_open(const char *address, int *opened, fst_error *error)
 {
-    char path[4096], program[] = "xdg-open";
+    static const char program[] = "xdg-open";
+    char path[4096];
     *opened = 0;
     if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))
         return FST_OK;
     const fst_status status = write_way(address, path, sizeof path, error);
     if (status != FST_OK)
         return status;
-    char *const arguments[] = {program, path, NULL};
-    const fst_process process = {program, arguments, NULL, -1, -1, -1};
-    pid_t child; /* nobody waits for it: on some desktops it lives as long as the browser */
-    const int failed = fst_process_start(&process, &child);
+    const char *const arguments[] = {program, path, NULL};
+    /* Nobody waits for it: on some desktops it lives as long as the browser. */
+    const int failed = fst_process_leave(arguments);
     if (failed)
         (void)unlink(path);
     if (failed == ENOENT)

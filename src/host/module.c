@@ -37,3 +37,15 @@ int fst_module_present(const char *file)
     }
     return 0;
 }
+
+int fst_module_usable(const char *file, char *lacks, size_t size)
+{
+    void *library = dlopen(file, RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE);
+    const char *said = library ? "" : dlerror(); /* "libmpi.so.40: cannot open shared object file: ..." */
+    lacks[0] = '\0';
+    if (!library && fst_module_present(file))
+        (void)snprintf(lacks, size, "%.*s", said ? (int)strcspn(said, ":") : 0, said ? said : "");
+    if (library)
+        (void)dlclose(library);
+    return library != NULL;
+}

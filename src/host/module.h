@@ -4,7 +4,10 @@
 #ifndef FST_HOST_MODULE_H
 #define FST_HOST_MODULE_H
 
-/* The files of the modules. festoon-lapack.so is not here: libfestoon loads it itself (orbit/lapack.c). */
+#include <stddef.h>
+
+/* The files of the modules. libfestoon itself loads that of LAPACK (orbit/lapack.c). */
+#define FST_LAPACK_MODULE "festoon-lapack.so"
 #define FST_CAIRO_MODULE "festoon-cairo.so"
 #define FST_HDF5_MODULE "festoon-hdf5.so"
 #define FST_MPI_MODULE "festoon-mpi.so"
@@ -14,7 +17,11 @@
  * loaded.  NULL: the module cannot be loaded (*found is 0) or has no such table (*found is 1). */
 const void *fst_module_table(const char *file, const char *symbol, int *found);
 
-/* Whether the module would be found.  It is not loaded, because loading takes time. */
+/* Whether the module lies where modules do.  It is not loaded, because loading takes time. */
 int fst_module_present(const char *file);
+
+/* Whether the module can be loaded.  If not, `lacks` names the library that it needs and that is missing; "": the
+ * module itself is missing. */
+int fst_module_usable(const char *file, char *lacks, size_t size);
 
 #endif

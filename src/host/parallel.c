@@ -1,6 +1,6 @@
 /* parallel.c - independent pieces of work on several threads; the calling thread tells the caller how far they
  * are. */
-#include "host/parallel.h"
+#include <festoon/festoon_tools.h>
 
 #include "base/error.h"
 #include "base/watch.h"
@@ -13,7 +13,8 @@ typedef struct pool {
     pthread_mutex_t lock; /* guards everything below */
     pthread_cond_t changed;
     int next, done, busy;
-    int stopped;      /* no new piece begins */
+    int stopped;      /* no new piece begins ... */
+    int refused;      /* ... because the caller wants no more */
     int failed_piece; /* the lowest index of a piece that failed, or work->count */
     fst_status status;
     fst_error error;
@@ -57,7 +58,7 @@ static fst_status watch(pool *all, fst_error *error)
             status = fst_tell(all->work->progress, (double)told / all->work->count, NULL, error);
             pthread_mutex_lock(&all->lock);
             if (status != FST_OK)
-                all->stopped = 1;
+                all->stopped = all->refused = 1;
         }
         if (all->busy > 0 && all->done == told) /* else another piece ended meanwhile: tell of it at once */
             fst_condition_wait(&all->changed, &all->lock, ASK_SECONDS);
@@ -65,11 +66,25 @@ static fst_status watch(pool *all, fst_error *error)
     return status;
 }
 
+/* tell() of work->within. */
+static fst_status ask(void *user, double fraction, const char *what, fst_error *error)
+{
+    pool *all = user;
+    (void)fraction;
+    (void)what;
+    pthread_mutex_lock(&all->lock);
+    const int refused = all->refused;
+    pthread_mutex_unlock(&all->lock);
+    return refused ? fst_fail(error, FST_INTERRUPTED, "fst_parallel", "interrupted") : FST_OK;
+}
+
 fst_status fst_parallel(const fst_work *work, fst_error *error)
 {
     pool all = {.work = work, .failed_piece = work->count, .status = FST_OK};
     pthread_mutex_init(&all.lock, NULL);
     fst_condition_init(&all.changed);
+    if (work->within)
+        *work->within = (fst_progress){&all, ask};
     const int processors = fst_processors(1);
     const int wanted = processors < work->count ? processors : work->count;
 

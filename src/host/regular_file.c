@@ -1,5 +1,4 @@
-/* regular_file.c - reading input files: whole, in pieces, or as a stream. */
-#define _GNU_SOURCE /* fopencookie */
+/* regular_file.c - reading input files: whole or in pieces. */
 #include "host/regular_file.h"
 
 #include <errno.h>
@@ -114,48 +113,4 @@ fst_status fst_read_regular(const char *path, size_t most, char **text, size_t *
         *text = NULL;
     }
     return status;
-}
-
-/* ---------------------------------------------------------------- as a stream */
-
-typedef struct source {
-    int descriptor;
-    int *reason;
-} source;
-
-static ssize_t read_source(void *cookie, char *bytes, size_t size)
-{
-    const source *from = cookie;
-    const ssize_t got = read_on(from->descriptor, bytes, size);
-    if (got < 0)
-        *from->reason = errno;
-    return got;
-}
-
-static int seek_source(void *cookie, off64_t *offset, int whence)
-{
-    const source *from = cookie;
-    const off_t place = lseek(from->descriptor, (off_t)*offset, whence);
-    *offset = place;
-    return place < 0 ? -1 : 0;
-}
-
-static int close_source(void *cookie)
-{
-    free(cookie);
-    return 0;
-}
-
-FILE *fst_regular_stream(int descriptor, int *reason)
-{
-    source *from = malloc(sizeof *from);
-    *reason = 0;
-    if (!from)
-        return NULL;
-    *from = (source){descriptor, reason};
-    FILE *stream = fopencookie(
-        from, "r", (cookie_io_functions_t){.read = read_source, .seek = seek_source, .close = close_source});
-    if (!stream)
-        free(from);
-    return stream;
 }

@@ -2,7 +2,6 @@
 #ifndef FST_HOST_REGULAR_FILE_H
 #define FST_HOST_REGULAR_FILE_H
 
-#include <stdio.h>
 #include <sys/types.h>
 
 #include <festoon/festoon.h>
@@ -19,9 +18,5 @@ fst_status fst_read_regular(const char *path, size_t most, char **text, size_t *
 /* Read from a place of a file until `size` bytes are read or the file ends; a signal that interrupts does not
  * end it.  Returns the number of bytes, or -1 and errno. */
 ssize_t fst_read_at(int descriptor, void *bytes, size_t size, off_t place);
-
-/* A stream that reads from a descriptor, which stays the caller's, and goes on where a signal interrupts a
- * read.  Where a read fails, *reason becomes its errno; otherwise it stays 0.  NULL: no memory. */
-FILE *fst_regular_stream(int descriptor, int *reason);
 
 #endif

@@ -1,6 +1,6 @@
 /* threads.h - the one pool of threads: they start together, run one function, and are waited for together.
  *
- * Work that is a list of independent pieces goes through host/parallel.h, which is built on this.
+ * Work that is a list of independent pieces goes through fst_parallel(), which is built on this.
  */
 #ifndef FST_HOST_THREADS_H
 #define FST_HOST_THREADS_H

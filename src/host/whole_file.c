@@ -21,6 +21,8 @@
 #define _GNU_SOURCE
 #include "host/whole_file.h"
 
+#include <festoon/festoon_tools.h>
+
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -44,6 +46,7 @@ enum {
 struct fst_whole_file_hold {
     int descriptor; /* of the temporary file, which is locked */
     int reason;     /* errno of the first write that failed; 0: none did */
+    char buffer[BUFFER];
 };
 
 static void forget(fst_whole_file *file)
@@ -146,7 +149,7 @@ static void begin_name(const char *path, char prefix[PREFIX_SIZE])
     (void)snprintf(prefix, PREFIX_SIZE, ".%.*s.", LONGEST_NAME, path + directory_length(path));
 }
 
-void fst_whole_file_tidy_beside(const char *path)
+static void tidy_beside(const char *path)
 {
     char prefix[PREFIX_SIZE], *place = directory_of(path);
     begin_name(path, prefix);
@@ -181,7 +184,7 @@ static int create_temporary(fst_whole_file *file, int tidy)
     char prefix[PREFIX_SIZE];
     begin_name(file->path, prefix);
     if (tidy)
-        fst_whole_file_tidy_beside(file->path);
+        tidy_beside(file->path);
     file->temporary = malloc(size);
     if (!file->temporary) {
         errno = ENOMEM;
@@ -222,7 +225,7 @@ static FILE *open_stream(struct fst_whole_file_hold *hold)
 {
     FILE *stream = fopencookie(hold, "w", (cookie_io_functions_t){.write = write_on});
     if (stream)
-        (void)setvbuf(stream, NULL, _IOFBF, BUFFER);
+        (void)setvbuf(stream, hold->buffer, _IOFBF, BUFFER);
     return stream;
 }
 
@@ -249,9 +252,9 @@ static fst_status open_file(fst_whole_file *file, const char *path, int tidy, fs
         file->path = realpath(path, NULL);
     if (!file->path)
         file->path = strdup(path);
-    file->hold = malloc(sizeof *file->hold);
+    file->hold = calloc(1, sizeof *file->hold);
     if (file->hold)
-        *file->hold = (struct fst_whole_file_hold){.descriptor = -1};
+        file->hold->descriptor = -1;
     if (!file->path || !file->hold)
         return fail_open(file, path, ENOMEM, error);
     file->hold->descriptor = create_temporary(file, tidy);
@@ -365,4 +368,18 @@ void fst_whole_file_discard(fst_whole_file *file)
     if (file->temporary)
         remove_ours(file);
     forget(file);
+}
+
+fst_status fst_file_write(const char *path, const char *text, size_t size, fst_error *error)
+{
+    fst_whole_file file;
+    const fst_status status = fst_whole_file_open(&file, path, error);
+    if (status != FST_OK)
+        return status;
+    if (text) {
+        (void)fwrite(text, 1, size, file.stream); /* a failure is noted, and told by the next line */
+        return fst_whole_file_commit(&file, error);
+    }
+    fst_whole_file_discard(&file);
+    return FST_OK;
 }

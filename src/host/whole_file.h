@@ -32,9 +32,6 @@ void fst_whole_file_tidy(const char *directory, const char *prefix);
  * cannot sync directories: nothing better can be done there. */
 int fst_sync_directory_of(const char *path);
 
-/* Remove the leftovers of `path` without writing it. */
-void fst_whole_file_tidy_beside(const char *path);
-
 /* The descriptor of the temporary file, for other ways to write than the stream; do not close it. */
 int fst_whole_file_descriptor(const fst_whole_file *file);
 

@@ -13,7 +13,8 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "host/regular_file.h"
-#include "io/json_parts.h"
+#include "io/branch_points.h"
+#include "io/json.h"
 
 enum { MOST_BRANCHES = 1000000 };
 
@@ -93,39 +94,31 @@ static int read_branch_or_none(reader *r, const json_t *object, const char *key)
     return json_is_null(json_object_get(object, key)) ? -1 : read_integer(r, object, key, 0, r->branches - 1);
 }
 
-/* The index of a text among names; the first name where it is none of them (the reading has then ended). */
-static int read_name(reader *r, const json_t *object, const char *key, const char *(*name_of)(int index),
-                     int count)
+/* The place of a text among names; 0 where it is not among them (the reading has then ended). */
+static int read_name(reader *r, const json_t *object, const char *key, const char *names)
 {
     const json_t *found = json_object_get(object, key);
     const char *text = json_string_value(found);
-    char names[256] = "", nearest[48], expected[400];
-    for (int i = 0; i < count; ++i) {
-        const size_t used = strlen(names);
-        if (text && strcmp(text, name_of(i)) == 0 && strlen(text) == json_string_length(found))
-            return i;
-        (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "", name_of(i));
-    }
-    (void)fst_nearest_name(text ? text : "", names, nearest, sizeof nearest);
-    (void)snprintf(expected, sizeof expected, "one of %s%s%s", names, text ? " (the nearest is " : "",
-                   text ? nearest : "");
-    refuse(r, key, found, text ? strcat(expected, ")") : expected);
+    char expected[400];
+    const int place = text && strlen(text) == json_string_length(found) ? fst_name_place(text, names) : -1;
+    if (place >= 0)
+        return place;
+    (void)snprintf(expected, sizeof expected, "one of %s", names);
+    refuse(r, key, found, expected);
     return 0;
 }
 
-static const char *special_name(int index)
+/* A symmetry by its name; null: there is none. */
+static fst_symmetry read_symmetry(reader *r, const json_t *object)
 {
-    return fst_special_name((fst_special_type)index);
-}
-
-static const char *end_name(int index)
-{
-    return fst_end_name((fst_end_type)index);
-}
-
-static const char *kind_name(int index)
-{
-    return fst_branch_kind_name((fst_branch_kind)index);
+    const json_t *found = json_object_get(object, "symmetry");
+    const char *text = json_string_value(found);
+    for (int i = FST_SYMMETRY_S1; text && i < FST_SYMMETRY_COUNT; ++i)
+        if (strcmp(text, fst_symmetry_name((fst_symmetry)i)) == 0)
+            return (fst_symmetry)i;
+    if (!json_is_null(found))
+        refuse(r, "symmetry", found, "\"S1\", \"S2\" or null");
+    return FST_SYMMETRY_NONE;
 }
 
 /* The key of a parameter with real values.  Its name goes into figures. */
@@ -213,16 +206,7 @@ static void read_point(reader *r, const json_t *object, fst_branch_point *p)
         read_number(r, object, fst_point_numbers[i].key, &value);
         memcpy((char *)p + fst_point_numbers[i].offset, &value, sizeof value);
     }
-    const json_t *symmetry = json_object_get(object, "symmetry");
-    const char *name = json_string_value(symmetry);
-    if (name && strcmp(name, "S1") == 0)
-        p->symmetry = FST_SYMMETRY_S1;
-    else if (name && strcmp(name, "S2") == 0)
-        p->symmetry = FST_SYMMETRY_S2;
-    else if (json_is_null(symmetry))
-        p->symmetry = FST_SYMMETRY_NONE;
-    else
-        refuse(r, "symmetry", symmetry, "\"S1\", \"S2\" or null");
+    p->symmetry = read_symmetry(r, object);
     p->stable = read_flag(r, object, "stable");
     p->turns = read_integer(r, object, "turns", -MOST_BRANCHES, MOST_BRANCHES);
     p->branch = read_integer(r, object, "branch", 0, r->branches - 1);
@@ -241,7 +225,7 @@ static void read_special(reader *r, const json_t *object, fst_special *s)
     const json_t *criticality = json_object_get(object, "criticality"),
                  *parameter = json_object_get(object, "parameter");
     const char *side = json_string_value(criticality), *key = json_string_value(parameter);
-    s->type = (fst_special_type)read_name(r, object, "type", special_name, FST_SPECIAL_GRAZING + 1);
+    s->type = (fst_special_type)read_name(r, object, "type", FST_WORDS(FST_SPECIALS));
     if (!key || strcmp(key, r->key) != 0)
         refuse(r, "parameter", parameter, "the branch's own parameter");
     read_number(r, object, "value", &s->value);
@@ -271,7 +255,7 @@ static void read_end(reader *r, const json_t *object, fst_branch_end *end, int o
     end->family = read_branch_or_none(r, object, "born_on");
     read_number(r, object, "value", &end->value);
     if (json_object_get(object, "type")) /* older files do not have it */
-        end->type = (fst_end_type)read_name(r, object, "type", end_name, FST_END_LOST + 1);
+        end->type = (fst_end_type)read_name(r, object, "type", FST_WORDS(FST_ENDS));
     read_text(r, object, "reason", end->reason, sizeof end->reason);
     if (over_two || (which && strcmp(which, "not listed") == 0))
         end->image = -1;
@@ -305,7 +289,7 @@ static int count_branches(const json_t *document)
 
 static void read_head(reader *r, const json_t *document, fst_branch *branch)
 {
-    branch->kind = (fst_branch_kind)read_name(r, document, "kind", kind_name, FST_BRANCH_ALL + 1);
+    branch->kind = (fst_branch_kind)read_name(r, document, "kind", FST_WORDS(FST_BRANCH_KINDS));
     read_parameter(r, document, "parameter", branch->key);
     read_finite(r, document, "from", &branch->from);
     branch->half_length = scale_of(document, "magnet.half_length");
@@ -315,8 +299,7 @@ static void read_head(reader *r, const json_t *document, fst_branch *branch)
         read_parameter(r, document, "second_parameter", branch->second_key);
         read_finite(r, document, "second_from", &branch->second_from);
         read_finite(r, document, "second_to", &branch->second_to);
-        branch->followed =
-            (fst_special_type)read_name(r, document, "followed", special_name, FST_SPECIAL_GRAZING + 1);
+        branch->followed = (fst_special_type)read_name(r, document, "followed", FST_WORDS(FST_SPECIALS));
     }
     branch->complete = read_flag(r, document, "complete");
     branch->branches = json_object_get(document, "branches")
@@ -376,9 +359,11 @@ static json_t *load(reader *r)
     if (r->status != FST_OK)
         return NULL;
     json_error_t why;
-    json_t *document = json_loadb(text, size, JSON_REJECT_DUPLICATES, &why);
+    json_t *document = fst_json_read(text, size, &why, &r->status);
     free(text);
-    if (!document) {
+    if (r->status == FST_NO_MEMORY) {
+        (void)fst_fail(r->error, r->status, r->path, "out of memory");
+    } else if (!document) {
         char quoted[FST_QUOTE_SIZE];
         r->status = fst_fail(r->error, FST_BAD_INPUT, r->path, "line %d: this is no JSON: %s", why.line,
                              fst_quote(why.text, quoted));

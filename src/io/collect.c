@@ -1,43 +1,24 @@
 /* collect.c - a run whose samples are collected in memory, as a table like that of a trajectory file. */
-#include "io/collect.h"
+#include <festoon/festoon_tools.h>
 
 #include "base/error.h"
+#include "base/grow.h"
 #include "io/columns.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct collector {
-    fst_table *table;
-    size_t room;
-} collector;
-
-static fst_status grow(collector *collected, fst_error *error)
-{
-    size_t room = collected->room ? 2 * collected->room : 4096;
-    for (int i = 0; i < FST_COLUMN_COUNT; ++i) {
-        double *column = realloc(collected->table->columns[i], room * sizeof *column);
-        if (!column)
-            return fst_fail(error, FST_NO_MEMORY, "trajectory", "no memory for %zu samples", room);
-        collected->table->columns[i] = column;
-    }
-    collected->room = room;
-    return FST_OK;
-}
-
 static fst_status take(void *user, const fst_sample *sample, fst_error *error)
 {
-    collector *collected = user;
-    fst_table *table = collected->table;
-    if (table->rows == collected->room) {
-        fst_status status = grow(collected, error);
-        if (status != FST_OK)
-            return status;
-    }
+    fst_table *table = user;
     double values[FST_COLUMN_COUNT];
     fst_column_values(sample, values);
-    for (int i = 0; i < FST_COLUMN_COUNT; ++i)
+    for (int i = 0; i < FST_COLUMN_COUNT; ++i) {
+        if (!fst_grow(&table->columns[i], table->rows, sizeof *table->columns[i]))
+            return fst_fail(error, FST_NO_MEMORY, "trajectory", "no memory for more than %zu samples",
+                            table->rows);
         table->columns[i][table->rows] = values[i];
+    }
     ++table->rows;
     return FST_OK;
 }
@@ -49,9 +30,8 @@ fst_status fst_collect_run(const fst_params *params, const fst_progress *progres
     table->columns = calloc(FST_COLUMN_COUNT, sizeof *table->columns);
     if (!table->columns)
         return fst_fail(error, FST_NO_MEMORY, "trajectory", "no memory for a table");
-    collector collected = {.table = table};
     fst_run_options options = fst_default_run_options();
-    options.sink.user = &collected;
+    options.sink.user = table;
     options.sink.sample = take;
     options.progress = progress;
     options.sample_from = params->run_discard;

@@ -1,12 +1,12 @@
 /* csv.c - trajectories as text: writing them, and reading them back. */
 #include "io/csv.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
 #include "base/number.h"
+#include "base/text.h"
 
 /* The lines that the reader recognises. */
 #define FIRST_LINE "# festoon trajectory"
@@ -63,107 +63,95 @@ void fst_csv_end(FILE *out, const char *result, int complete)
 /* ---------------------------------------------------------------- reading */
 
 typedef struct csv_reader {
-    FILE *in;
-    const char *path;
-    char *line; /* LONGEST_LINE bytes, without the newline */
-    int number; /* of the present line, from 1 */
-    char *scene;
-    size_t scene_length;
-    size_t room; /* rows for which there is memory */
-    int columns; /* of the file: an older one lacks the last */
+    const fst_text *text;
+    fst_text_table rows;
+    fst_text_column columns[FST_COLUMN_COUNT];
+    size_t ended; /* the line that says whether the run was complete, from 1; 0: there is none */
+    size_t room;  /* rows for which there is memory */
     fst_table *table;
     fst_error *error;
 } csv_reader;
 
-/* Longer than any line: a row takes about 1000 bytes, the result about 5000. */
-#define LONGEST_LINE 65536
-
-static fst_status fail_line(csv_reader *reader, const char *sentence)
+static int begins(const char *line, const char *word)
 {
-    char where[256];
-    (void)snprintf(where, sizeof where, "%.200s:%d", reader->path, reader->number);
-    return fst_fail(reader->error, FST_BAD_INPUT, where, "%s", sentence);
+    return strncmp(line, word, strlen(word)) == 0;
 }
 
-/* Read the next line: 1, or 0 at the end of the file or where its last line has no newline. */
-static int next_line(csv_reader *reader)
+/* The scene, of the lines behind the one that announces it. */
+static fst_status read_scene(const csv_reader *reader, size_t line)
 {
-    if (!fgets(reader->line, LONGEST_LINE, reader->in))
-        return 0;
-    ++reader->number;
-    size_t length = strlen(reader->line);
-    if (length == 0 || reader->line[length - 1] != '\n')
-        return 0;
-    reader->line[length - 1] = '\0';
-    return 1;
+    const fst_text *text = reader->text;
+    char *scene = malloc(FST_SCENE_SIZE_LIMIT + 1);
+    size_t length = 0;
+    if (!scene)
+        return fst_fail(reader->error, FST_NO_MEMORY, text->path, "out of memory");
+    for (; line < text->count && text->lines[line][0] == '#'; ++line) {
+        if (!begins(text->lines[line], SCENE_INDENT))
+            continue;
+        const char *from = text->lines[line] + strlen(SCENE_INDENT);
+        const size_t more = strlen(from);
+        if (length + more + 1 > FST_SCENE_SIZE_LIMIT) {
+            free(scene);
+            return fst_text_fail(text->path, line + 1, reader->error, "the scene in this file is too long");
+        }
+        memcpy(scene + length, from, more);
+        length += more;
+        scene[length++] = '\n';
+    }
+    const fst_status status = fst_scene_parse(scene, length, text->path, &reader->table->params, reader->error);
+    free(scene);
+    return status;
 }
 
-static fst_status keep_scene_line(csv_reader *reader)
+/* The comments: what the file is, its scene, and its end. */
+static fst_status read_comments(csv_reader *reader)
 {
-    const char *text = reader->line + strlen(SCENE_INDENT);
-    size_t length = strlen(text);
-    if (reader->scene_length + length > FST_SCENE_SIZE_LIMIT)
-        return fail_line(reader, "the scene in this file is too long");
-    char *longer = realloc(reader->scene, reader->scene_length + length + 2);
-    if (!longer)
-        return fst_fail(reader->error, FST_NO_MEMORY, reader->path, "out of memory");
-    reader->scene = longer;
-    memcpy(longer + reader->scene_length, text, length);
-    memcpy(longer + reader->scene_length + length, "\n", 2);
-    reader->scene_length += length + 1;
-    return FST_OK;
-}
-
-/* The commented lines before the column names. */
-static fst_status read_head(csv_reader *reader)
-{
-    const int is_text = next_line(reader);
-    if (is_text && strcmp(reader->line, OTHER_UNITS_LINE) == 0)
+    const fst_text *text = reader->text;
+    const char *first = text->count ? text->lines[0] : "";
+    size_t scene = 0;
+    if (strcmp(first, OTHER_UNITS_LINE) == 0)
         return fst_fail(
-            reader->error, FST_BAD_INPUT, reader->path,
+            reader->error, FST_BAD_INPUT, text->path,
             "this trajectory was written for other programs, in units of the laboratory or SI; one in "
             "scaled units can be read");
-    if (!is_text || strcmp(reader->line, FIRST_LINE) != 0)
-        return fst_fail(reader->error, FST_BAD_INPUT, reader->path,
+    if (strcmp(first, FIRST_LINE) != 0)
+        return fst_fail(reader->error, FST_BAD_INPUT, text->path,
                         "this is no trajectory of festoon: it begins neither as HDF5 nor with \"%s\"",
                         FIRST_LINE);
-    int in_scene = 0;
-    while (next_line(reader) && reader->line[0] == '#') {
-        if (in_scene && strncmp(reader->line, SCENE_INDENT, strlen(SCENE_INDENT)) == 0) {
-            fst_status status = keep_scene_line(reader);
-            if (status != FST_OK)
-                return status;
+    for (size_t i = 0; i < text->count; ++i) {
+        if (!scene && strcmp(text->lines[i], SCENE_LINE) == 0)
+            scene = i + 1;
+        if (strcmp(text->lines[i], COMPLETE_LINE "true") == 0 ||
+            strcmp(text->lines[i], COMPLETE_LINE "false") == 0) {
+            reader->ended = i + 1;
+            reader->table->complete = strcmp(text->lines[i], COMPLETE_LINE "true") == 0;
         }
-        in_scene = in_scene || strcmp(reader->line, SCENE_LINE) == 0;
     }
-    if (!in_scene)
-        return fail_line(reader, "the scene is missing in the head of this trajectory");
-    return fst_scene_parse(reader->scene ? reader->scene : "", reader->scene_length, reader->path,
-                           &reader->table->params, reader->error);
+    if (!scene)
+        return fst_text_fail(text->path, text->count, reader->error,
+                             "the scene is missing in the head of this trajectory");
+    return read_scene(reader, scene);
 }
 
-/* Check the line of column names, which read_head() has left in reader->line. */
-static fst_status check_names(csv_reader *reader)
+/* Find the columns; a trajectory of before beads could fly lacks all of the last ones. */
+static fst_status read_names(csv_reader *reader)
 {
-    const char *at = reader->line;
-    reader->columns = FST_COLUMN_COUNT;
-    for (int i = 0; i < reader->columns; ++i) {
-        char expected[96], sentence[160];
+    fst_text_column *last = &reader->columns[FST_COLUMNS_BEFORE_FLIGHTS];
+    int flights = 0;
+    for (int i = 0; i < FST_COLUMN_COUNT; ++i)
+        reader->columns[i] = (fst_text_column){
+            .names = fst_column_at(i)->name, .kind = FST_UNIT_NUMBER, .needed = i < FST_COLUMNS_BEFORE_FLIGHTS};
+    fst_status status = fst_text_head(&reader->rows, reader->columns, FST_COLUMN_COUNT, "t [1/gamma], ...");
+    for (int i = 0; i < FST_COLUMN_COUNT - FST_COLUMNS_BEFORE_FLIGHTS; ++i)
+        flights += last[i].place != 0;
+    for (int i = 0; i < FST_COLUMN_COUNT && status == FST_OK; ++i) {
         const fst_column_info *info = fst_column_at(i);
-        const int is_old_end = i + 1 == FST_COLUMNS_BEFORE_FLIGHTS;
-        const int length = snprintf(expected, sizeof expected, "%s [%s]", info->name, info->unit);
-        if (is_old_end && strcmp(at, expected) == 0)
-            reader->columns = FST_COLUMNS_BEFORE_FLIGHTS;
-        (void)snprintf(expected + length, sizeof expected - (size_t)length, "%s",
-                       i + 1 < reader->columns ? "," : "");
-        if (strncmp(at, expected, strlen(expected)) != 0) {
-            (void)snprintf(sentence, sizeof sentence, "the column \"%s [%s]\" is missing here", info->name,
-                           info->unit);
-            return fail_line(reader, sentence);
-        }
-        at += strlen(expected);
+        const int there = reader->columns[i].place != 0;
+        if (there ? strcmp(reader->columns[i].unit, info->unit) != 0 : flights != 0)
+            status = fst_text_fail(reader->text->path, reader->rows.line, reader->error,
+                                   "the column \"%s [%s]\" is missing here", info->name, info->unit);
     }
-    return *at ? fail_line(reader, "there are more columns than a trajectory has") : FST_OK;
+    return status;
 }
 
 static fst_status make_room(csv_reader *reader)
@@ -174,7 +162,7 @@ static fst_status make_room(csv_reader *reader)
     for (int i = 0; i < FST_COLUMN_COUNT; ++i) {
         double *longer = realloc(reader->table->columns[i], room * sizeof *longer);
         if (!longer)
-            return fst_fail(reader->error, FST_NO_MEMORY, reader->path, "out of memory after %zu rows",
+            return fst_fail(reader->error, FST_NO_MEMORY, reader->text->path, "out of memory after %zu rows",
                             reader->table->rows);
         reader->table->columns[i] = longer;
     }
@@ -185,67 +173,50 @@ static fst_status make_room(csv_reader *reader)
 static fst_status read_row(csv_reader *reader)
 {
     fst_status status = make_room(reader);
-    if (status != FST_OK)
-        return status;
-    const char *at = reader->line;
-    for (int i = 0; i < reader->columns; ++i) {
-        char *end, sentence[160];
-        const double value = strtod(at, &end);
-        if (end == at || *end != (i + 1 < reader->columns ? ',' : '\0')) {
-            (void)snprintf(sentence, sizeof sentence, "this is no row of %d numbers: the column %s is wrong",
-                           reader->columns, fst_column_at(i)->name);
-            return fail_line(reader, sentence);
-        }
-        if (!isfinite(value)) {
-            (void)snprintf(
-                sentence, sizeof sentence,
-                "the column %s holds \"%.*s\", which is not finite, as every number of a trajectory must be",
-                fst_column_at(i)->name, (int)(end - at < 24 ? end - at : 24), at);
-            return fail_line(reader, sentence);
+    for (int i = 0; i < FST_COLUMN_COUNT && status == FST_OK; ++i) {
+        const char *cell = fst_text_cell(&reader->rows, &reader->columns[i]);
+        double value = 0.0;
+        if (reader->columns[i].place && fst_text_number(cell, &value) != FST_TEXT_NUMBER) {
+            char quoted[FST_QUOTE_SIZE];
+            status = fst_text_fail(
+                reader->text->path, reader->rows.line, reader->error,
+                "the column %s holds %s, which is no finite number, as every one of a trajectory must be",
+                fst_column_at(i)->name, fst_quote(cell, quoted));
         }
         reader->table->columns[i][reader->table->rows] = value;
-        at = end + 1;
     }
-    for (int i = reader->columns; i < FST_COLUMN_COUNT; ++i)
-        reader->table->columns[i][reader->table->rows] = 0.0;
-    ++reader->table->rows;
-    return FST_OK;
+    reader->table->rows += status == FST_OK;
+    return status;
 }
 
-/* Read the rows, then the commented end, which says whether the run was complete. */
 static fst_status read_rows(csv_reader *reader)
 {
-    int ended = 0;
-    while (next_line(reader)) {
-        if (reader->line[0] != '#') {
-            fst_status status =
-                ended ? fail_line(reader, "there is a row after the end of this trajectory") : read_row(reader);
-            if (status != FST_OK)
-                return status;
-        } else if (strncmp(reader->line, COMPLETE_LINE, strlen(COMPLETE_LINE)) == 0) {
-            ended = 1;
-            reader->table->complete = strcmp(reader->line + strlen(COMPLETE_LINE), "true") == 0;
-        }
+    for (;;) {
+        int more;
+        fst_status status = fst_text_row(&reader->rows, &more);
+        if (status == FST_OK && !more && !reader->ended)
+            return fst_text_fail(reader->text->path, reader->text->count, reader->error,
+                                 "this trajectory is cut off: the line \"" COMPLETE_LINE "...\" is missing");
+        if (status != FST_OK || !more)
+            return status;
+        if (reader->ended && reader->rows.line > reader->ended)
+            return fst_text_fail(reader->text->path, reader->rows.line, reader->error,
+                                 "there is a row after the end of this trajectory");
+        status = read_row(reader);
+        if (status != FST_OK)
+            return status;
     }
-    if (!ended || !feof(reader->in))
-        return fail_line(reader, "this trajectory is cut off: the line \"" COMPLETE_LINE "...\" is missing");
-    return FST_OK;
 }
 
-fst_status fst_csv_read(FILE *in, const char *path, fst_table *table, fst_error *error)
+fst_status fst_csv_read(const fst_text *text, fst_table *table, fst_error *error)
 {
-    csv_reader reader = {.in = in, .path = path, .table = table, .error = error};
-    reader.line = malloc(LONGEST_LINE);
-    if (!reader.line)
-        return fst_fail(error, FST_NO_MEMORY, path, "out of memory");
-    fst_c_locale locale = fst_c_locale_enter();
-    fst_status status = read_head(&reader);
+    csv_reader reader = {.text = text, .table = table, .error = error};
+    fst_text_begin(&reader.rows, text, error);
+    fst_status status = read_comments(&reader);
     if (status == FST_OK)
-        status = check_names(&reader);
+        status = read_names(&reader);
     if (status == FST_OK)
         status = read_rows(&reader);
-    fst_c_locale_leave(locale);
-    free(reader.line);
-    free(reader.scene);
+    fst_text_end(&reader.rows);
     return status;
 }

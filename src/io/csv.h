@@ -8,6 +8,7 @@
 #include <festoon/festoon_tools.h>
 
 #include "io/columns.h"
+#include "io/text_table.h"
 
 /* Write to `out`.  A failure is seen by ferror(out). */
 void fst_csv_begin(FILE *out, const char *scene);
@@ -17,8 +18,8 @@ void fst_csv_row(FILE *out, const double values[FST_COLUMN_COUNT]);
 /* `result` is JSON on one line, or NULL. */
 void fst_csv_end(FILE *out, const char *result, int complete);
 
-/* Read such a file.  The caller frees the table, also on failure.  FST_BAD_INPUT: the sentence says which line
+/* Read such a text.  The caller frees the table, also on failure.  FST_BAD_INPUT: the sentence says which line
  * is wrong. */
-fst_status fst_csv_read(FILE *in, const char *path, fst_table *table, fst_error *error);
+fst_status fst_csv_read(const fst_text *text, fst_table *table, fst_error *error);
 
 #endif

@@ -1,20 +1,10 @@
-/* ffmpeg.c - an ffmpeg process: starting it, handing it frames, and finding out whether it failed. */
-#define _GNU_SOURCE /* pipe2, strsignal */
-
+/* ffmpeg.c - the command line of an ffmpeg that makes a film, and how it is known whether it failed. */
 #include "io/ffmpeg.h"
 
-#include "base/error.h"
-#include "host/process.h"
-
-#include <errno.h>
-#include <fcntl.h>
-#include <poll.h>
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/socket.h>
-#include <sys/wait.h>
-#include <unistd.h>
+
+#include "base/error.h"
 
 enum { MOST_ARGUMENTS = 48 };
 
@@ -63,98 +53,26 @@ static void list_arguments(const fst_ffmpeg_kind *kind, const spelled *words,
     arguments[count] = NULL;
 }
 
-fst_status fst_ffmpeg_start(fst_ffmpeg *film, const fst_ffmpeg_kind *kind, const char *out, const char *name,
+fst_status fst_ffmpeg_start(fst_process *film, const fst_ffmpeg_kind *kind, const char *out, const char *name,
                             fst_error *error)
 {
-    film->name = name;
-    film->said_size = 0;
-    film->said[0] = '\0';
     spelled spelt;
     const char *arguments[MOST_ARGUMENTS];
     if (!spell(kind, out, &spelt))
         return fst_fail(error, FST_BAD_INPUT, name, "the file name is too long");
     list_arguments(kind, &spelt, arguments);
-    int input[2], words[2];
-    /* A socket instead of a pipe, because send() can be told to raise no SIGPIPE when ffmpeg ends early. */
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, input) != 0)
-        return fst_fail(error, FST_IO, name, "no socket to ffmpeg: %s", strerror(errno));
-    if (pipe2(words, O_CLOEXEC) != 0) {
-        (void)close(input[0]);
-        (void)close(input[1]);
-        return fst_fail(error, FST_IO, name, "no pipe from ffmpeg: %s", strerror(errno));
-    }
-    /* posix_spawn() wants writable arguments, but does not change them. */
-    char *writable[MOST_ARGUMENTS];
-    memcpy(writable, arguments, sizeof writable);
-    const fst_process ffmpeg = {"ffmpeg", writable, NULL, input[1], -1, words[1]};
-    int failed = fst_process_start(&ffmpeg, &film->child);
-    (void)close(input[1]);
-    (void)close(words[1]);
-    film->frames = input[0];
-    film->words = words[0];
-    if (!failed)
-        return FST_OK;
-    (void)close(input[0]);
-    (void)close(words[0]);
-    if (failed == ENOENT)
-        return fst_fail(error, FST_UNAVAILABLE, name,
-                        "films need ffmpeg, which is not installed: install the package ffmpeg");
-    return fst_fail(error, FST_IO, name, "cannot start ffmpeg: %s", strerror(failed));
+    const fst_program program = {
+        .arguments = arguments, .input = FST_INPUT_FED, .purpose = "films need ffmpeg", .package = "ffmpeg"};
+    *film = (fst_process){.pid = 0};
+    return fst_process_start(film, &program, name, error);
 }
 
-/* Keep the beginning of what ffmpeg says, on one line; 0 once it says no more. */
-static int hear(fst_ffmpeg *film)
+fst_status fst_ffmpeg_end(fst_process *film, int abandon, fst_error *error)
 {
-    char piece[512];
-    const ssize_t got = read(film->words, piece, sizeof piece);
-    for (ssize_t i = 0; i < got && film->said_size + 1 < sizeof film->said; ++i)
-        film->said[film->said_size++] = (unsigned char)piece[i] < ' ' ? ' ' : piece[i];
-    film->said[film->said_size] = '\0';
-    return got > 0 || (got < 0 && errno == EINTR);
-}
-
-fst_status fst_ffmpeg_frame(fst_ffmpeg *film, const unsigned char *bytes, size_t size, fst_error *error)
-{
-    /* Read what ffmpeg says while it works: if nobody does, its pipe fills up and it waits for ever. */
-    struct pollfd ends[2] = {{.fd = film->frames, .events = POLLOUT}, {.fd = film->words, .events = POLLIN}};
-    while (size > 0) {
-        if (poll(ends, 2, -1) < 0 && errno != EINTR)
-            return fst_fail(error, FST_IO, film->name, "cannot wait for ffmpeg: %s", strerror(errno));
-        if (ends[1].revents && !hear(film))
-            ends[1].fd = -1;
-        const ssize_t sent = ends[0].revents ? send(film->frames, bytes, size, MSG_NOSIGNAL | MSG_DONTWAIT) : 0;
-        if (sent < 0 && errno != EINTR && errno != EAGAIN)
-            return fst_fail(error, FST_IO, film->name, "ffmpeg takes no more frames: %s", strerror(errno));
-        if (sent > 0) {
-            bytes += sent;
-            size -= (size_t)sent;
-        }
-    }
-    return FST_OK;
-}
-
-fst_status fst_ffmpeg_end(fst_ffmpeg *film, int abandon, fst_error *error)
-{
-    const char *words = film->said;
-    if (abandon)
-        (void)kill(film->child, SIGKILL);
-    (void)close(film->frames);
-    while (hear(film))
-        continue;
-    (void)close(film->words);
-    int outcome = 0;
-    pid_t done;
-    do
-        done = waitpid(film->child, &outcome, 0);
-    while (done < 0 && errno == EINTR);
-    if (abandon)
-        return FST_OK;
+    const fst_status status = fst_process_end(film, abandon, error);
     /* ffmpeg is told to report errors only, so any word is an error.  Its status does not tell: it is 0 even on
      * a full disk. */
-    if (done == film->child && WIFEXITED(outcome) && WEXITSTATUS(outcome) == 0 && !words[0])
-        return FST_OK;
-    if (done == film->child && WIFSIGNALED(outcome))
-        return fst_fail(error, FST_IO, film->name, "ffmpeg was ended by the signal %d (%s) %s",
-                        WTERMSIG(outcome), strsignal(WTERMSIG(outcome)), words);
-    return fst_fail(error, FST_IO, film->name, "ffmpeg failed: %s", words[0] ? words : "it said nothing");
+    return status == FST_OK && !abandon && film->said[0]
+               ? fst_fail(error, FST_IO, film->where, "ffmpeg failed: %s", film->said)
+               : status;
 }

@@ -4,16 +4,7 @@
 
 #include <festoon/festoon.h>
 
-#include <sys/types.h>
-
-typedef struct fst_ffmpeg {
-    pid_t child;
-    int frames;       /* a socket to its standard input */
-    int words;        /* a pipe from its standard error */
-    const char *name; /* the film's name in messages */
-    char said[512];   /* the beginning of what it said */
-    size_t said_size;
-} fst_ffmpeg;
+#include "host/process.h"
 
 /* What kind of film is made of which frames. */
 typedef struct fst_ffmpeg_kind {
@@ -25,16 +16,14 @@ typedef struct fst_ffmpeg_kind {
     int drop; /* every drop-th frame was lost before it came here, so the times jump there; 0: none was */
 } fst_ffmpeg_kind;
 
-/* Start ffmpeg on raw frames.  It writes to `out`, over any file there; `name`, which is kept, stands for `out`
- * in messages.  FST_UNAVAILABLE: there is no ffmpeg (the sentence names the package). */
-fst_status fst_ffmpeg_start(fst_ffmpeg *film, const fst_ffmpeg_kind *kind, const char *out, const char *name,
+/* Start ffmpeg on raw frames, which fst_process_write() hands over.  It writes to `out`, over any file there;
+ * `name`, which is kept, stands for `out` in messages.  FST_UNAVAILABLE: there is no ffmpeg (the sentence names
+ * the package). */
+fst_status fst_ffmpeg_start(fst_process *film, const fst_ffmpeg_kind *kind, const char *out, const char *name,
                             fst_error *error);
-
-/* Hand over the bytes of a frame.  FST_IO: ffmpeg has ended; fst_ffmpeg_end() tells why. */
-fst_status fst_ffmpeg_frame(fst_ffmpeg *film, const unsigned char *bytes, size_t size, fst_error *error);
 
 /* End the frames, and wait until the film is whole.  Call it once after each start that went well, also after a
  * failure; with `abandon` the process is ended at once.  FST_IO: ffmpeg failed, and the sentence quotes it. */
-fst_status fst_ffmpeg_end(fst_ffmpeg *film, int abandon, fst_error *error);
+fst_status fst_ffmpeg_end(fst_process *film, int abandon, fst_error *error);
 
 #endif

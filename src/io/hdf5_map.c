@@ -94,14 +94,14 @@ static int rank_of_field(const fst_hdf5_session *s)
     return rank;
 }
 
-fst_status fst_hdf5_read_map(const char *path, fst_hdf5_map *map, fst_error *error)
+fst_status fst_hdf5_read_map(const char *path, const char *bytes, size_t size, fst_hdf5_map *map,
+                             fst_error *error)
 {
     static const char *const names[] = {"x", "y", "z"};
     fst_hdf5_session s;
     memset(map, 0, sizeof *map);
-    fst_status status = fst_hdf5_session_begin(path, &s, error);
-    if (status != FST_OK)
-        return status;
+    fst_status status = FST_OK;
+    fst_hdf5_session_begin(bytes, size, &s);
     if (s.file < 0)
         status = fst_fail(error, FST_BAD_INPUT, path, "HDF5 cannot open this file: it is damaged or cut off");
     map->count[2] = 1;

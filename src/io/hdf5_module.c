@@ -6,27 +6,18 @@
  */
 #include "io/hdf5_module.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <hdf5.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/error.h"
-#include "io/hdf5_driver.h"
 #include "io/hdf5_session.h"
 
-/* Rows in a chunk.  One chunk is held in memory, so memory does not grow with the trajectory. */
+/* Rows in a chunk. */
 #define CHUNK 4096
 
 #define PROGRAM "festoon"
 
-#if H5_VERSION_GE(1, 10, 2)
-#define FORMAT H5F_LIBVER_V110
-#else
-#define FORMAT H5F_LIBVER_LATEST
-#endif
 #define UNITS                                                                                                  \
     "scaled: lengths in l (magnet.half_length), times in 1/gamma (friction.gamma), fields in B0, masses in "   \
     "the "                                                                                                     \
@@ -34,7 +25,7 @@
 
 struct fst_hdf5_writer {
     hid_t file;
-    fst_hdf5_disk disk;
+    fst_hdf5_image image;
     hid_t *sets; /* the data set of each column */
     const fst_column_info *const *columns;
     int count;
@@ -49,25 +40,23 @@ struct fst_hdf5_writer {
 static int write_text(hid_t object, const char *name, const char *text)
 {
     hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
-    (void)H5Tset_size(type, strlen(text) + 1);
-    (void)H5Tset_cset(type, H5T_CSET_UTF8);
+    int failed = H5Tset_size(type, strlen(text) + 1) < 0 || H5Tset_cset(type, H5T_CSET_UTF8) < 0;
     hid_t attribute = H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
-    int failed = attribute < 0 || H5Awrite(attribute, type, text) < 0;
+    failed = failed || attribute < 0 || H5Awrite(attribute, type, text) < 0;
     failed = (attribute >= 0 && H5Aclose(attribute) < 0) || failed;
-    (void)H5Sclose(space);
-    (void)H5Tclose(type);
+    fst_hdf5_close(type, space);
     return failed;
 }
 
-/* The boolean that h5py knows: an enumeration of one byte. */
+/* The boolean that h5py knows: an enumeration of one byte.  Negative: HDF5 cannot make it. */
 static hid_t boolean_type(void)
 {
     hid_t type = H5Tenum_create(H5T_NATIVE_INT8);
-    signed char value = 0;
-    (void)H5Tenum_insert(type, "FALSE", &value);
-    value = 1;
-    (void)H5Tenum_insert(type, "TRUE", &value);
-    return type;
+    const signed char no = 0, yes = 1;
+    if (type >= 0 && H5Tenum_insert(type, "FALSE", &no) >= 0 && H5Tenum_insert(type, "TRUE", &yes) >= 0)
+        return type;
+    fst_hdf5_close(type, -1);
+    return -1;
 }
 
 static int write_boolean(hid_t object, const char *name, int truth)
@@ -77,8 +66,7 @@ static int write_boolean(hid_t object, const char *name, int truth)
     hid_t attribute = H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
     int failed = attribute < 0 || H5Awrite(attribute, type, &value) < 0;
     failed = (attribute >= 0 && H5Aclose(attribute) < 0) || failed;
-    (void)H5Sclose(space);
-    (void)H5Tclose(type);
+    fst_hdf5_close(type, space);
     return failed;
 }
 
@@ -114,9 +102,7 @@ static int read_boolean(hid_t object, const char *name)
     hid_t type = boolean_type(), space = H5Aget_space(attribute);
     if (H5Sget_simple_extent_npoints(space) != 1 || H5Aread(attribute, type, &value) < 0)
         value = -1;
-    if (space >= 0)
-        (void)H5Sclose(space);
-    (void)H5Tclose(type);
+    fst_hdf5_close(type, space);
     (void)H5Aclose(attribute);
     return value;
 }
@@ -125,22 +111,23 @@ static int read_boolean(hid_t object, const char *name)
 
 static fst_status fail_write(const fst_hdf5_writer *writer, fst_error *error)
 {
-    return fst_fail(error, FST_IO, writer->name, "writing this file failed: %s",
-                    writer->disk.reason ? strerror(writer->disk.reason) : "HDF5 refused, and did not say why");
+    return fst_fail(error, FST_IO, writer->name, "writing this file failed: HDF5 refused, and did not say why");
 }
 
-/* Chunked, with checksums, and compressed where this HDF5 can. */
+/* Chunked, with checksums, and compressed where this HDF5 can.  Negative: HDF5 cannot make it. */
 static hid_t storage_of_column(void)
 {
     const hsize_t chunk = CHUNK;
+    const htri_t deflates = H5Zfilter_avail(H5Z_FILTER_DEFLATE);
     hid_t storage = H5Pcreate(H5P_DATASET_CREATE);
-    (void)H5Pset_obj_track_times(storage, 0); /* without times the same run gives the same bytes */
-    (void)H5Pset_chunk(storage, 1, &chunk);
-    (void)H5Pset_shuffle(storage);
-    if (H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0)
-        (void)H5Pset_deflate(storage, 1);
-    (void)H5Pset_fletcher32(storage);
-    return storage;
+    /* Without times the same run gives the same bytes. */
+    if (storage >= 0 && deflates >= 0 && H5Pset_obj_track_times(storage, 0) >= 0 &&
+        H5Pset_chunk(storage, 1, &chunk) >= 0 && H5Pset_shuffle(storage) >= 0 &&
+        (!deflates || H5Pset_deflate(storage, 1) >= 0) && H5Pset_fletcher32(storage) >= 0)
+        return storage;
+    if (storage >= 0)
+        (void)H5Pclose(storage);
+    return -1;
 }
 
 static int create_columns(fst_hdf5_writer *writer)
@@ -150,8 +137,7 @@ static int create_columns(fst_hdf5_writer *writer)
     hid_t storage = storage_of_column();
     /* Whole chunks are written at once, so a cache would only hold copies of them. */
     hid_t access = H5Pcreate(H5P_DATASET_ACCESS);
-    (void)H5Pset_chunk_cache(access, 1, 0, 1.0);
-    int failed = 0;
+    int failed = space < 0 || storage < 0 || access < 0 || H5Pset_chunk_cache(access, 1, 0, 1.0) < 0;
     for (int i = 0; i < writer->count && !failed; ++i) {
         const fst_column_info *column = writer->columns[i];
         hid_t set = H5Dcreate2(writer->file, column->name, H5T_IEEE_F64LE, space, H5P_DEFAULT, storage, access);
@@ -159,54 +145,34 @@ static int create_columns(fst_hdf5_writer *writer)
         failed =
             set < 0 || write_text(set, "unit", column->unit) || write_text(set, "description", column->doc);
     }
-    (void)H5Pclose(access);
-    (void)H5Pclose(storage);
-    (void)H5Sclose(space);
+    if (access >= 0)
+        (void)H5Pclose(access);
+    if (storage >= 0)
+        (void)H5Pclose(storage);
+    fst_hdf5_close(-1, space);
     return failed;
 }
 
-/* Close everything and free the writer.  Returns an errno if not everything is in the file. */
-static int close_writer(fst_hdf5_writer *writer)
+/* Close everything; 1 where HDF5 cannot. */
+static int close_file(fst_hdf5_writer *writer)
 {
     int failed = 0;
     for (int i = 0; i < writer->count; ++i)
         if (writer->sets && writer->sets[i] >= 0)
             failed = H5Dclose(writer->sets[i]) < 0 || failed;
-    if (writer->file >= 0)
-        failed = H5Fclose(writer->file) < 0 || failed;
-    const int reason = writer->disk.reason ? writer->disk.reason : failed ? EIO : 0;
-    fst_hdf5_forget(&writer->disk);
-    if (writer->disk.descriptor >= 0)
-        (void)close(writer->disk.descriptor);
+    return (writer->file >= 0 && H5Fclose(writer->file) < 0) || failed;
+}
+
+static void free_writer(fst_hdf5_writer *writer)
+{
+    free(writer->image.bytes);
     free(writer->sets);
     free(writer->buffer);
     free(writer);
-    return reason;
 }
 
-/* 1 if it cannot be opened. */
-static int open_file(fst_hdf5_writer *writer, const char *path)
-{
-    writer->disk.descriptor = open(path, O_RDWR | O_TRUNC | O_CLOEXEC);
-    if (writer->disk.descriptor < 0) {
-        writer->disk.reason = errno;
-        return 1;
-    }
-    const hid_t access = fst_hdf5_access(&writer->disk), root = H5Pcreate(H5P_FILE_CREATE);
-    /* From this format on HDF5 keeps a checksum of everything in a file, so it notices damage instead of
-     * following it. */
-    if (access >= 0 && root >= 0 && H5Pset_libver_bounds(access, FORMAT, FORMAT) >= 0 &&
-        H5Pset_obj_track_times(root, 0) >= 0)
-        writer->file = H5Fcreate(path, H5F_ACC_TRUNC, root, access);
-    if (root >= 0)
-        (void)H5Pclose(root);
-    if (access >= 0)
-        (void)H5Pclose(access);
-    return writer->file < 0;
-}
-
-static fst_status create(const char *path, const char *name, const fst_column_info *const *columns, int count,
-                         const char *scene, fst_hdf5_writer **out, fst_error *error)
+static fst_status create(const char *name, const fst_column_info *const *columns, int count, const char *scene,
+                         fst_hdf5_writer **out, fst_error *error)
 {
     *out = NULL;
     fst_hdf5_writer *writer = calloc(1, sizeof *writer);
@@ -216,24 +182,25 @@ static fst_status create(const char *path, const char *name, const fst_column_in
     writer->count = count;
     writer->file = -1;
     writer->name = name;
-    writer->disk = (fst_hdf5_disk){.descriptor = -1};
     writer->sets = calloc((size_t)count, sizeof *writer->sets);
     writer->buffer = malloc((size_t)count * CHUNK * sizeof *writer->buffer);
     if (!writer->sets || !writer->buffer) {
         writer->count = 0; /* no data set is open yet */
-        (void)close_writer(writer);
+        free_writer(writer);
         return fst_fail(error, FST_NO_MEMORY, name, "out of memory");
     }
     for (int i = 0; i < count; ++i)
         writer->sets[i] = -1;
     fst_hdf5_told before = fst_hdf5_quiet();
-    int failed = open_file(writer, path) || write_text(writer->file, "program", PROGRAM) ||
+    writer->file = fst_hdf5_new(&writer->image);
+    int failed = writer->file < 0 || write_text(writer->file, "program", PROGRAM) ||
                  write_text(writer->file, "version", fst_version()) ||
                  write_text(writer->file, "units", UNITS) || write_text(writer->file, "scene", scene) ||
                  create_columns(writer);
     if (failed) {
         fail_write(writer, error);
-        (void)close_writer(writer);
+        (void)close_file(writer);
+        free_writer(writer);
     }
     fst_hdf5_as_before(before);
     if (failed)
@@ -249,17 +216,16 @@ static int flush_rows(fst_hdf5_writer *writer)
         return 0;
     const hsize_t start = writer->written, added = writer->pending, total = start + added;
     hid_t memory = H5Screate_simple(1, &added, NULL);
-    int failed = 0;
+    int failed = memory < 0;
     for (int i = 0; i < writer->count && !failed; ++i) {
         failed = H5Dset_extent(writer->sets[i], &total) < 0;
         hid_t space = failed ? -1 : H5Dget_space(writer->sets[i]);
         failed = space < 0 || H5Sselect_hyperslab(space, H5S_SELECT_SET, &start, NULL, &added, NULL) < 0 ||
                  H5Dwrite(writer->sets[i], H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT,
                           writer->buffer + (size_t)i * CHUNK) < 0;
-        if (space >= 0)
-            (void)H5Sclose(space);
+        fst_hdf5_close(-1, space);
     }
-    (void)H5Sclose(memory);
+    fst_hdf5_close(-1, memory);
     writer->written = total;
     writer->pending = 0;
     return failed;
@@ -272,21 +238,28 @@ static fst_status row(fst_hdf5_writer *writer, const double *values, fst_error *
     if (++writer->pending < CHUNK)
         return FST_OK;
     fst_hdf5_told before = fst_hdf5_quiet();
-    int failed = flush_rows(writer) || writer->disk.reason;
+    hsize_t size = 0;
+    const int failed = flush_rows(writer) || H5Fget_filesize(writer->file, &size) < 0;
     fst_hdf5_as_before(before);
+    if (!failed && size > fst_hdf5_most())
+        return fst_fail(
+            error, FST_NO_MEMORY, writer->name,
+            "this HDF5 file is made in memory, and it has grown beyond half of this computer's memory: "
+            "choose a .csv file, or fewer samples");
     return failed ? fail_write(writer, error) : FST_OK;
 }
 
-static fst_status finish(fst_hdf5_writer *writer, const char *result, int complete, fst_error *error)
+static fst_status finish(fst_hdf5_writer *writer, const char *result, int complete, FILE *out, fst_error *error)
 {
     fst_hdf5_told before = fst_hdf5_quiet();
     int failed = flush_rows(writer) || (result && write_text(writer->file, "result", result)) ||
                  write_boolean(writer->file, "complete", complete);
-    const char *name = writer->name;
-    fst_status status = failed ? fail_write(writer, error) : FST_OK;
-    const int reason = close_writer(writer);
-    if (reason && status == FST_OK)
-        status = fst_fail(error, FST_IO, name, "writing this file failed: %s", strerror(reason));
+    failed = close_file(writer) || failed;
+    const size_t length = fst_hdf5_length(&writer->image);
+    const fst_status status = failed || length == 0 ? fail_write(writer, error) : FST_OK;
+    if (status == FST_OK)
+        (void)fwrite(writer->image.bytes, 1, length, out);
+    free_writer(writer);
     fst_hdf5_as_before(before);
     return status;
 }
@@ -294,7 +267,8 @@ static fst_status finish(fst_hdf5_writer *writer, const char *result, int comple
 static void abandon(fst_hdf5_writer *writer)
 {
     fst_hdf5_told before = fst_hdf5_quiet();
-    (void)close_writer(writer);
+    (void)close_file(writer);
+    free_writer(writer);
     fst_hdf5_as_before(before);
 }
 
@@ -380,21 +354,31 @@ static fst_status read_file(hid_t file, const char *path, const fst_column_info 
     return status == FST_OK ? fill_columns(path, there, count, data, *rows, error) : status;
 }
 
-static fst_status read_all(const char *path, const fst_column_info *const *columns, int needed, int count,
-                           double **data, size_t *rows, char **scene, int *complete, fst_error *error)
+static fst_status read_all(const char *path, const char *bytes, size_t size,
+                           const fst_column_info *const *columns, int needed, int count, double **data,
+                           size_t *rows, char **scene, int *complete, fst_error *error)
 {
-    fst_hdf5_session session;
-    fst_status status = fst_hdf5_session_begin(path, &session, error);
-    if (status != FST_OK)
-        return status;
-    status = read_file(session.file, path, columns, needed, count, data, rows, scene, complete, error);
-    fst_hdf5_session_end(&session);
+    fst_status status = FST_BAD_INPUT;
+    /* Where memory runs out HDF5 answers as to a damaged file: it must do so twice. */
+    for (int i = 0; i < 2 && status == FST_BAD_INPUT; ++i) {
+        fst_hdf5_session session;
+        for (int k = 0; k < count; ++k) {
+            free(data[k]);
+            data[k] = NULL;
+        }
+        free(*scene);
+        *scene = NULL;
+        fst_hdf5_session_begin(bytes, size, &session);
+        status = read_file(session.file, path, columns, needed, count, data, rows, scene, complete, error);
+        fst_hdf5_session_end(&session);
+    }
     return status;
 }
 
 FST_API extern const fst_hdf5_module_table fst_hdf5_module;
 const fst_hdf5_module_table fst_hdf5_module = {
     .version = FST_VERSION_STRING,
+    .most = fst_hdf5_most,
     .create = create,
     .row = row,
     .finish = finish,

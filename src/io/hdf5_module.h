@@ -4,6 +4,7 @@
 #define FST_IO_HDF5_MODULE_H
 
 #include <festoon/festoon_tools.h>
+#include <stdio.h>
 
 typedef struct fst_hdf5_writer fst_hdf5_writer;
 
@@ -22,23 +23,30 @@ typedef struct fst_hdf5_map {
 typedef struct fst_hdf5_module_table {
     const char *version; /* FST_VERSION_STRING at the module's build; a module of another version is refused */
 
-    /* Begin a trajectory at `path`, over any file there; `name` stands for it in messages.  The name and the
-     * columns are kept, not copied. */
-    fst_status (*create)(const char *path, const char *name, const fst_column_info *const *columns, int count,
-                         const char *scene, fst_hdf5_writer **writer, fst_error *error);
+    /* The greatest size in bytes of a file, read or written: half of this computer's memory, because the
+     * numbers that come out of it need at least as much again. */
+    size_t (*most)(void);
+
+    /* Begin a trajectory, which is made in memory; `name` stands for it in messages.  The name and the columns
+     * are kept, not copied. */
+    fst_status (*create)(const char *name, const fst_column_info *const *columns, int count, const char *scene,
+                         fst_hdf5_writer **writer, fst_error *error);
     fst_status (*row)(fst_hdf5_writer *writer, const double *values, fst_error *error);
-    /* Write the last rows and the attributes `result` (JSON or NULL) and `complete`, and close.  The writer is
-     * gone afterwards, also on failure. */
-    fst_status (*finish)(fst_hdf5_writer *writer, const char *result, int complete, fst_error *error);
+    /* Add the last rows and the attributes `result` (JSON or NULL) and `complete`, and write the file to a
+     * stream, whose failures are the caller's to find.  The writer is gone afterwards, also on failure. */
+    fst_status (*finish)(fst_hdf5_writer *writer, const char *result, int complete, FILE *out,
+                         fst_error *error);
     void (*abandon)(fst_hdf5_writer *writer);
 
-    /* Read all columns.  Where none of those from `needed` on is there, their data are zeros.  The caller frees
-     * data[i] and `scene`, also on failure where they are not NULL. */
-    fst_status (*read)(const char *path, const fst_column_info *const *columns, int needed, int count,
-                       double **data, size_t *rows, char **scene, int *complete, fst_error *error);
+    /* Read all columns of the file with these bytes.  Where none of those from `needed` on is there, their data
+     * are zeros.  The caller frees data[i] and `scene`, also on failure where they are not NULL. */
+    fst_status (*read)(const char *path, const char *bytes, size_t size, const fst_column_info *const *columns,
+                       int needed, int count, double **data, size_t *rows, char **scene, int *complete,
+                       fst_error *error);
 
     /* Read a map of a field.  The caller frees its places and b, also on failure. */
-    fst_status (*read_map)(const char *path, fst_hdf5_map *map, fst_error *error);
+    fst_status (*read_map)(const char *path, const char *bytes, size_t size, fst_hdf5_map *map,
+                           fst_error *error);
 } fst_hdf5_module_table;
 
 #endif

@@ -1,27 +1,13 @@
-/* json.c - results and the table of parameters as JSON, by jansson. */
+/* json.c - results and the table of parameters as JSON, and reading JSON. */
 #include <festoon/festoon_tools.h>
 
-#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "io/json.h"
-#include "io/json_parts.h"
-
-json_t *fst_json_number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
-
-static json_t *text_or_null(const char *text)
-{
-    return text && text[0] ? json_string(text) : json_null();
-}
-
-static json_t *count_of(uint64_t value)
-{
-    return json_integer((json_int_t)value);
-}
 
 /* A parameter's value; null where it was not given. */
 static json_t *parameter(const fst_params *params, int index)
@@ -33,7 +19,7 @@ static json_t *parameter(const fst_params *params, int index)
     if (fst_params_get(params, index, text, sizeof text) == 0)
         return json_null();
     if (info->kind == FST_KIND_CHOICE || info->kind == FST_KIND_TEXT)
-        return json_string(text);
+        return fst_json_text_value(text);
     memcpy(&integer, (const char *)params + info->offset, sizeof integer);
     if (info->kind == FST_KIND_INT)
         return json_integer(integer);
@@ -42,9 +28,9 @@ static json_t *parameter(const fst_params *params, int index)
 }
 
 /* The parts as a list of objects, each with its kind, and lists of numbers in SI. */
-static json_t *parts_array(const fst_params *params)
+static void put_parts(fst_json *json, const fst_params *params)
 {
-    json_t *parts = json_array(), *part = NULL;
+    fst_json_open(json, "magnet.parts", '[');
     for (int i = fst_param_count(); i < fst_params_row_count(params); ++i) {
         const char *key = strrchr(fst_param_at(i)->key, '.') + 1;
         const size_t length = strcspn(key, "[");
@@ -52,43 +38,49 @@ static json_t *parts_array(const fst_params *params)
         (void)snprintf(name, sizeof name, "%.*s", (int)length, key);
         json_t *value = parameter(params, i);
         if (fst_param_at(i)->kind == FST_KIND_CHOICE) {
-            part = json_object();
-            json_array_append_new(parts, part);
-            json_object_set_new(part, name, value);
+            if (i > fst_param_count())
+                fst_json_close(json);
+            fst_json_open(json, NULL, '{');
+            fst_json_put(json, name, value);
         } else if (json_is_null(value)) {
             json_decref(value); /* the kind of part has no such number */
         } else {
+            json_t *part = json->open[json->depth - 1];
             if (!json_object_get(part, name))
-                json_object_set_new(part, name, json_array());
-            json_array_append_new(json_object_get(part, name), value);
+                fst_json_put(json, name, json_array());
+            json->failed |= json_array_append_new(json_object_get(part, name), value) != 0;
         }
     }
-    return parts;
+    fst_json_close(json);
+    fst_json_close(json);
 }
 
-json_t *fst_json_scene(const fst_params *params)
+void fst_json_scene(fst_json *json, const fst_params *params)
 {
-    json_t *scene = json_object();
+    fst_json_open(json, "scene", '{');
     for (int i = 0; i < fst_param_count(); ++i)
-        json_object_set_new(scene, fst_param_at(i)->key, parameter(params, i));
+        fst_json_put(json, fst_param_at(i)->key, parameter(params, i));
     if (params->magnet_part_count)
-        json_object_set_new(scene, "magnet.parts", parts_array(params));
-    return scene;
+        put_parts(json, params);
+    fst_json_close(json);
 }
 
-static json_t *groups_object(const fst_params *params)
+static void put_groups(fst_json *json, const fst_params *params)
 {
     fst_model *model = NULL;
-    if (fst_model_new(params, &model, NULL) != FST_OK)
-        return json_null();
-    fst_groups g = fst_model_groups(model);
+    const fst_status status = fst_model_new(params, &model, NULL);
+    if (status != FST_OK) {
+        fst_json_put(json, "groups", status == FST_NO_MEMORY ? NULL : json_null());
+        return;
+    }
+    const fst_groups g = fst_model_groups(model);
     fst_model_free(model);
-    json_t *groups = json_object();
     const struct {
         const char *name;
         double value;
     } numbers[] = {
         {"eps", g.eps},
+        {"inertia", g.inertia},
         {"h", g.h},
         {"lambda", g.lambda},
         {"kappa", g.kappa},
@@ -102,36 +94,29 @@ static json_t *groups_object(const fst_params *params)
         {"mass_kg", g.mass},
         {"field_unit_t", g.field_unit},
     };
+    fst_json_open(json, "groups", '{');
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; ++i)
-        json_object_set_new(groups, numbers[i].name, fst_json_number(numbers[i].value));
-    json_object_set_new(groups, "lines", json_integer(g.lines));
-    return groups;
+        fst_json_real(json, numbers[i].name, numbers[i].value);
+    fst_json_integer(json, "lines", g.lines);
+    fst_json_close(json);
 }
 
-json_t *fst_json_numbers(const double *values, int count)
+static void put_ramp(fst_json *json, const fst_ramp_point *ramp, size_t count)
 {
-    json_t *array = json_array();
-    for (int i = 0; i < count; ++i)
-        json_array_append_new(array, fst_json_number(values[i]));
-    return array;
-}
-
-static json_t *ramp_array(const fst_ramp_point *ramp, size_t count)
-{
-    json_t *array = json_array();
+    fst_json_open(json, "ramp", '[');
     for (size_t i = 0; i < count; ++i) {
-        json_t *point = json_object();
-        json_object_set_new(point, "omega", fst_json_number(ramp[i].omega));
-        json_object_set_new(point, "frequency_hz", fst_json_number(ramp[i].frequency_hz));
-        json_object_set_new(point, "mean_r", fst_json_number(ramp[i].mean_r));
-        json_object_set_new(point, "std_r", fst_json_number(ramp[i].std_r));
-        json_object_set_new(point, "mean_alpha_dot", fst_json_number(ramp[i].mean_alpha_dot));
-        json_object_set_new(point, "mean_phi_dot", fst_json_number(ramp[i].mean_phi_dot));
-        json_object_set_new(point, "mean_nz", fst_json_number(ramp[i].mean_nz));
-        json_object_set_new(point, "settled", json_boolean(ramp[i].settled));
-        json_array_append_new(array, point);
+        fst_json_open(json, NULL, '{');
+        fst_json_real(json, "omega", ramp[i].omega);
+        fst_json_real(json, "frequency_hz", ramp[i].frequency_hz);
+        fst_json_real(json, "mean_r", ramp[i].mean_r);
+        fst_json_real(json, "std_r", ramp[i].std_r);
+        fst_json_real(json, "mean_alpha_dot", ramp[i].mean_alpha_dot);
+        fst_json_real(json, "mean_phi_dot", ramp[i].mean_phi_dot);
+        fst_json_real(json, "mean_nz", ramp[i].mean_nz);
+        fst_json_flag(json, "settled", ramp[i].settled);
+        fst_json_close(json);
     }
-    return array;
+    fst_json_close(json);
 }
 
 static const char *choice_text(const fst_params *params, const char *key, char *text, size_t size)
@@ -140,52 +125,33 @@ static const char *choice_text(const fst_params *params, const char *key, char *
     return text;
 }
 
-char *fst_json_dump(json_t *document, size_t flags)
+void fst_json_run(fst_json *json, const fst_params *params, const fst_run_result *result)
 {
-    char *text = document ? json_dumps(document, flags | JSON_REAL_PRECISION(17)) : NULL;
-    json_decref(document);
-    if (!text)
-        return NULL;
-    size_t length = strlen(text);
-    char *longer = realloc(text, length + 2);
-    if (!longer) {
-        free(text);
-        return NULL;
-    }
-    memcpy(longer + length, "\n", 2);
-    return longer;
-}
-
-json_t *fst_json_run(const fst_params *params, const fst_run_result *result)
-{
-    char dynamics[48], controller[48];
-    json_t *run = json_object();
-    json_object_set_new(run, "regime", text_or_null(fst_regime_name(result->regime)));
-    json_object_set_new(run, "reason", text_or_null(result->reason));
-    json_object_set_new(run, "symmetry", text_or_null(fst_symmetry_name(result->symmetry)));
-    json_object_set_new(run, "dynamics",
-                        text_or_null(choice_text(params, "model.dynamics", dynamics, sizeof dynamics)));
-    json_object_set_new(run, "controller",
-                        text_or_null(choice_text(params, "run.controller", controller, sizeof controller)));
+    char dynamics[48];
+    fst_json_text(json, "regime", fst_regime_name(result->regime));
+    fst_json_text(json, "reason", result->reason[0] ? result->reason : NULL);
+    fst_json_text(json, "symmetry", fst_symmetry_name(result->symmetry));
+    fst_json_text(json, "dynamics", choice_text(params, "model.dynamics", dynamics, sizeof dynamics));
     for (int i = 0; i < fst_result_count(); ++i) {
         const fst_result_info *info = fst_result_at(i);
         double value;
         memcpy(&value, (const char *)result + info->offset, sizeof value);
-        json_object_set_new(run, info->name, fst_json_number(value));
+        fst_json_real(json, info->name, value);
     }
-    json_object_set_new(run, "never_slips",
-                        result->never_slips < 0 ? json_null() : json_boolean(result->never_slips));
-    json_object_set_new(run, "returns", json_integer(result->returns));
-    json_object_set_new(run, "rhs_calls", count_of(result->rhs_calls));
-    json_object_set_new(run, "steps_accepted", count_of(result->accepted));
-    json_object_set_new(run, "steps_rejected", count_of(result->rejected));
-    json_object_set_new(run, "final_state", fst_json_numbers(result->final_state, FST_STATE_SIZE));
-    return run;
+    fst_json_put(json, "never_slips",
+                 result->never_slips < 0 ? json_null() : json_boolean(result->never_slips));
+    fst_json_integer(json, "returns", result->returns);
+    fst_json_integer(json, "rhs_calls", (int64_t)result->rhs_calls);
+    fst_json_integer(json, "steps_accepted", (int64_t)result->accepted);
+    fst_json_integer(json, "steps_rejected", (int64_t)result->rejected);
+    fst_json_reals(json, "final_state", result->final_state, FST_STATE_SIZE);
 }
 
 char *fst_result_line(const fst_params *params, const fst_run_result *result)
 {
-    char *text = fst_json_dump(fst_json_run(params, result), JSON_COMPACT);
+    fst_json json = fst_json_begin('{');
+    fst_json_run(&json, params, result);
+    char *text = fst_json_end(&json, JSON_COMPACT);
     if (text)
         text[strlen(text) - 1] = '\0';
     return text;
@@ -200,7 +166,7 @@ static const struct {
 };
 
 /* The numbers of a run in SI; a load in weights, mean_load_weights, becomes mean_load_newtons. */
-static void add_si(json_t *run, const fst_params *params, const fst_run_result *result)
+static void put_si(fst_json *json, const fst_params *params, const fst_run_result *result)
 {
     const fst_scales scales = fst_scales_of(params);
     for (int i = 0; i < fst_result_count(); ++i) {
@@ -211,7 +177,7 @@ static void add_si(json_t *run, const fst_params *params, const fst_run_result *
         memcpy(&value, (const char *)result + info->offset, sizeof value);
         if (in_weights) {
             (void)snprintf(key, sizeof key, "%.*s_newtons", (int)(in_weights - info->name), info->name);
-            json_object_set_new(run, key, fst_json_number(value * scales.mass * params->plate_gravity));
+            fst_json_real(json, key, value * scales.mass * params->plate_gravity);
         }
         for (size_t k = 0; k < sizeof si_endings / sizeof *si_endings; ++k) {
             if (strcmp(info->unit, si_endings[k].unit) != 0)
@@ -219,7 +185,7 @@ static void add_si(json_t *run, const fst_params *params, const fst_run_result *
             const int unknown = strcmp(info->unit, "B0") == 0 && isnan(scales.field);
             const double factor = fst_unit_shown(info->unit, FST_SHOWN_SI, &scales, &unused);
             (void)snprintf(key, sizeof key, "%s%s", info->name, si_endings[k].ending);
-            json_object_set_new(run, key, fst_json_number(unknown ? NAN : value * factor));
+            fst_json_real(json, key, unknown ? NAN : value * factor);
         }
     }
 }
@@ -233,99 +199,102 @@ char *fst_run_json(const fst_params *params, const fst_run_result *result, const
 char *fst_run_json_in(const fst_params *params, const fst_run_result *result, const fst_ramp_point *ramp,
                       size_t ramp_count, fst_shown_units units)
 {
-    json_t *run = fst_json_run(params, result);
+    fst_json json = fst_json_begin('{');
+    fst_json_run(&json, params, result);
     if (units == FST_SHOWN_LAB || units == FST_SHOWN_SI)
-        add_si(run, params, result);
-    json_object_set_new(run, "groups", groups_object(params));
-    json_object_set_new(run, "scene", fst_json_scene(params));
+        put_si(&json, params, result);
+    put_groups(&json, params);
+    fst_json_scene(&json, params);
     if (ramp_count)
-        json_object_set_new(run, "ramp", ramp_array(ramp, ramp_count));
-    json_object_set_new(run, "version", json_string(fst_version()));
-    return fst_json_dump(run, JSON_INDENT(2));
+        put_ramp(&json, ramp, ramp_count);
+    fst_json_text(&json, "version", fst_version());
+    return fst_json_end(&json, JSON_INDENT(2));
 }
 
-/* What can be told of a measured field, in SI. */
-static json_t *map_object(const fst_field_map *map)
+/* What is known of a measured field, in SI. */
+static void put_map(fst_json *json, const fst_field_map *map)
 {
     const fst_field_map_facts facts = fst_field_map_describe(map);
-    json_t *object = json_object(), *count = json_array();
+    fst_json_open(json, "map", '{');
+    fst_json_open(json, "count", '[');
     for (int axis = 0; axis < 3; ++axis)
-        json_array_append_new(count, json_integer(facts.count[axis]));
-    json_object_set_new(object, "count", count);
-    json_object_set_new(object, "first_m", fst_json_numbers(facts.first, 3));
-    json_object_set_new(object, "spacing_m", fst_json_numbers(facts.spacing, 3));
-    json_object_set_new(object, "radius_m", fst_json_number(facts.radius));
-    json_object_set_new(object, "greatest_b_tesla", fst_json_number(facts.greatest));
-    json_object_set_new(object, "curl", fst_json_number(facts.curl));
-    return object;
+        fst_json_integer(json, NULL, facts.count[axis]);
+    fst_json_close(json);
+    fst_json_reals(json, "first_m", facts.first, 3);
+    fst_json_reals(json, "spacing_m", facts.spacing, 3);
+    fst_json_real(json, "radius_m", facts.radius);
+    fst_json_real(json, "greatest_b_tesla", facts.greatest);
+    fst_json_real(json, "curl", facts.curl);
+    fst_json_close(json);
 }
 
 char *fst_scene_json(const fst_params *params)
 {
-    json_t *document = json_object();
-    json_object_set_new(document, "scene", fst_json_scene(params));
-    json_object_set_new(document, "groups", groups_object(params));
-    json_t *warnings = json_array();
     char sentence[512];
+    fst_json json = fst_json_begin('{');
+    fst_json_scene(&json, params);
+    put_groups(&json, params);
+    fst_json_open(&json, "warnings", '[');
     if (fst_bead_contradiction(params, sentence, sizeof sentence))
-        json_array_append_new(warnings, json_string(sentence));
-    json_object_set_new(document, "warnings", warnings);
+        fst_json_text(&json, NULL, sentence);
+    fst_json_close(&json);
     if (params->magnet_map)
-        json_object_set_new(document, "map", map_object(params->magnet_map));
-    return fst_json_dump(document, JSON_INDENT(2));
+        put_map(&json, params->magnet_map);
+    return fst_json_end(&json, JSON_INDENT(2));
 }
 
 /* The field and its gradient times the units `field` and `slope`, under two keys. */
-static void add_field(json_t *document, const double b[3], double grad[3][3], double field, double slope,
+static void put_field(fst_json *json, const double b[3], double grad[3][3], double field, double slope,
                       const char *field_key, const char *slope_key)
 {
     double scaled[4][3];
-    json_t *rows = json_array();
     for (int k = 0; k < 3; ++k) {
         scaled[0][k] = field * b[k];
         for (int i = 0; i < 3; ++i)
             scaled[1 + i][k] = slope * grad[i][k];
     }
+    fst_json_reals(json, field_key, scaled[0], 3);
+    fst_json_open(json, slope_key, '[');
     for (int i = 0; i < 3; ++i)
-        json_array_append_new(rows, fst_json_numbers(scaled[1 + i], 3));
-    json_object_set_new(document, field_key, fst_json_numbers(scaled[0], 3));
-    json_object_set_new(document, slope_key, rows);
+        fst_json_reals(json, NULL, scaled[1 + i], 3);
+    fst_json_close(json);
 }
 
 /* The magnetic force on a bead whose moment lies along the field, and its load on the plate. */
-static void add_pull(json_t *document, const fst_model *model, double x, double y, fst_shown_units units)
+static void put_pull(fst_json *json, const fst_model *model, double x, double y, int in_si)
 {
     const fst_groups g = fst_model_groups(model);
     const double newton = g.mass * g.length_unit / (g.time_unit * g.time_unit);
     double force[3], load;
     fst_field_pull(model, x, y, force, &load);
-    json_object_set_new(document, "height", fst_json_number(g.h));
-    json_object_set_new(document, "force", fst_json_numbers(force, 3));
-    json_object_set_new(document, "load", fst_json_number(load));
-    if (units != FST_SHOWN_SI && units != FST_SHOWN_LAB)
+    fst_json_real(json, "height", g.h);
+    fst_json_reals(json, "force", force, 3);
+    fst_json_real(json, "load", load);
+    if (!in_si)
         return;
     for (int i = 0; i < 3; ++i)
         force[i] *= newton;
-    json_object_set_new(document, "force_newtons", fst_json_numbers(force, 3));
-    json_object_set_new(document, "load_newtons", fst_json_number(newton * load));
+    fst_json_reals(json, "force_newtons", force, 3);
+    fst_json_real(json, "load_newtons", newton * load);
 }
 
 char *fst_field_json(const fst_model *model, double x, double y, fst_shown_units units)
 {
     double b[3], grad[3][3];
-    const fst_groups groups = fst_model_groups(model);
+    const fst_groups g = fst_model_groups(model);
+    const int in_si = units == FST_SHOWN_SI || units == FST_SHOWN_LAB;
     fst_field(model, x, y, b, grad);
-    json_t *document = json_object();
-    json_object_set_new(document, "x", fst_json_number(x));
-    json_object_set_new(document, "y", fst_json_number(y));
-    add_field(document, b, grad, 1.0, 1.0, "b", "grad");
-    if (units == FST_SHOWN_SI || units == FST_SHOWN_LAB)
-        add_field(document, b, grad, groups.field_unit, groups.field_unit / groups.length_unit, "b_tesla",
-                  "grad_tesla_per_m");
-    add_pull(document, model, x, y, units);
-    return fst_json_dump(document, JSON_INDENT(2));
+    fst_json json = fst_json_begin('{');
+    fst_json_real(&json, "x", x);
+    fst_json_real(&json, "y", y);
+    put_field(&json, b, grad, 1.0, 1.0, "b", "grad");
+    if (in_si)
+        put_field(&json, b, grad, g.field_unit, g.field_unit / g.length_unit, "b_tesla", "grad_tesla_per_m");
+    put_pull(&json, model, x, y, in_si);
+    return fst_json_end(&json, JSON_INDENT(2));
 }
 
+/* The value that a parameter has at first. */
 static json_t *schema_default(const fst_param_info *info, int index)
 {
     const fst_params defaults = fst_default_params();
@@ -338,7 +307,7 @@ static json_t *schema_default(const fst_param_info *info, int index)
     return text[0] ? json_string(text) : json_null();
 }
 
-static json_t *schema_row(int index)
+static void put_schema_row(fst_json *json, int index)
 {
     static const char *const kinds[] = {[FST_KIND_REAL] = "real",
                                         [FST_KIND_INT] = "integer",
@@ -346,31 +315,88 @@ static json_t *schema_row(int index)
                                         [FST_KIND_TEXT] = "text"};
     const fst_param_info *info = fst_param_at(index);
     const int choice = info->kind == FST_KIND_CHOICE, limits = !choice && info->kind != FST_KIND_TEXT;
-    json_t *row = json_object();
-    json_object_set_new(row, "key", json_string(info->key));
-    json_object_set_new(row, "kind", json_string(kinds[info->kind]));
-    json_object_set_new(row, "unit", limits ? json_string(fst_unit_name(info->unit)) : json_null());
-    json_object_set_new(row, "default", schema_default(info, index));
-    json_object_set_new(row, "min", limits ? fst_json_number(info->least) : json_null());
-    json_object_set_new(row, "max", limits ? fst_json_number(info->greatest) : json_null());
-    json_object_set_new(row, "doc", json_string(info->doc));
-    json_t *names = choice ? json_array() : json_null();
-    for (const char *name = choice ? info->names : ""; *name; name += strspn(name, "|")) {
-        size_t length = strcspn(name, "|");
-        json_array_append_new(names, json_stringn(name, length));
-        name += length;
+    fst_json_open(json, NULL, '{');
+    fst_json_text(json, "key", info->key);
+    fst_json_text(json, "kind", kinds[info->kind]);
+    fst_json_text(json, "unit", limits ? fst_unit_name(info->unit) : NULL);
+    fst_json_put(json, "default", schema_default(info, index));
+    fst_json_real(json, "min", limits ? info->least : NAN);
+    fst_json_real(json, "max", limits ? info->greatest : NAN);
+    fst_json_text(json, "doc", info->doc);
+    if (choice) {
+        fst_json_open(json, "names", '[');
+        size_t length;
+        for (int i = 0; *fst_name_at(info->names, i, &length); ++i)
+            fst_json_name(json, NULL, info->names, i);
+        fst_json_close(json);
+    } else {
+        fst_json_text(json, "names", NULL);
     }
-    json_object_set_new(row, "names", names);
-    json_object_set_new(row, "other_form", text_or_null(fst_param_other_form(info->key)));
+    fst_json_text(json, "other_form", fst_param_other_form(info->key));
     /* of a key of the first part: how many parts may have it */
-    json_object_set_new(row, "parts", fst_param_part(index) == 0 ? json_integer(FST_PARTS_MAX) : json_null());
-    return row;
+    fst_json_place(json, "parts", fst_param_part(index) == 0 ? FST_PARTS_MAX : -1);
+    fst_json_close(json);
 }
 
 char *fst_schema_json(void)
 {
-    json_t *schema = json_array();
+    fst_json json = fst_json_begin('[');
     for (int i = 0; i < fst_param_count() || fst_param_part(i) == 0; ++i)
-        json_array_append_new(schema, schema_row(i));
-    return fst_json_dump(schema, JSON_INDENT(2));
+        put_schema_row(&json, i);
+    return fst_json_end(&json, JSON_INDENT(2));
+}
+
+/* ---------------------------------------------------------------- reading */
+
+/* jansson's scanner leaves out a letter where it cannot grow its memory.  So it first reads a long text, which
+ * comes back whole if the scanner has room for it; no name and no number of ours is longer. */
+enum { LONGEST_WORD = 4096 };
+
+typedef struct fed_text {
+    const char *pieces[3];
+    size_t sizes[3];
+} fed_text;
+
+static size_t feed(void *buffer, size_t room, void *user)
+{
+    fed_text *fed = user;
+    size_t given = 0;
+    for (int i = 0; i < 3 && given < room; ++i) {
+        const size_t size = fed->sizes[i] < room - given ? fed->sizes[i] : room - given;
+        memcpy((char *)buffer + given, fed->pieces[i], size);
+        fed->pieces[i] += size;
+        fed->sizes[i] -= size;
+        given += size;
+    }
+    return given;
+}
+
+static json_t *read_once(const char *text, size_t size, json_error_t *why)
+{
+    char before[LONGEST_WORD + 4];
+    memset(before, ' ', sizeof before);
+    memcpy(before, "[\"", 2);
+    memcpy(before + 2 + LONGEST_WORD - 2, "\",", 2);
+    fed_text fed = {{before, text, "]"}, {LONGEST_WORD + 2, size, 1}};
+    json_t *both = json_load_callback(feed, &fed, JSON_REJECT_DUPLICATES, why);
+    const size_t length = json_string_length(json_array_get(both, 0));
+    json_t *document =
+        json_array_size(both) == 2 && length == LONGEST_WORD - 2 ? json_array_get(both, 1) : NULL;
+    if (both && json_array_size(both) != 2)
+        (void)snprintf(why->text, sizeof why->text, "end of file expected");
+    json_incref(document);
+    json_decref(both);
+    return document;
+}
+
+json_t *fst_json_read(const char *text, size_t size, json_error_t *why, fst_status *status)
+{
+    /* Without memory jansson may speak of an invalid text: it must do so twice, while there is memory. */
+    json_t *document = read_once(text, size, why);
+    if (!document)
+        document = read_once(text, size, why);
+    void *some = document ? NULL : malloc(LONGEST_WORD);
+    *status = document ? FST_OK : some && why->text[0] ? FST_BAD_INPUT : FST_NO_MEMORY;
+    free(some);
+    return document;
 }

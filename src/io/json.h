@@ -1,8 +1,22 @@
-/* json.h - JSON for other files of this room. */
+/* json.h - pieces of JSON documents that several files write, and the one way to read one. */
 #ifndef FST_IO_JSON_H
 #define FST_IO_JSON_H
 
 #include <festoon/festoon.h>
+
+#include "io/json_writer.h"
+
+#define FST_LONGEST_JSON ((size_t)1 << 31) /* the most bytes of a file that is read */
+
+/* The document in a text, or NULL.  *status is then FST_NO_MEMORY, or FST_BAD_INPUT with the reason in `why`. */
+json_t *fst_json_read(const char *text, size_t size, json_error_t *why, fst_status *status);
+
+/* The member "scene": the parameters by key, in SI.  Null: it was not given, or another form of the same
+ * quantity was. */
+void fst_json_scene(fst_json *json, const fst_params *params);
+
+/* The members of a run's result. */
+void fst_json_run(fst_json *json, const fst_params *params, const fst_run_result *result);
 
 /* The result of a run as JSON on one line, without the scene: a trajectory file holds it. free() it; NULL: no
  * memory. */

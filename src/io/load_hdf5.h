@@ -8,4 +8,9 @@
  * build has none; `path` is the file that needs it, for the message. */
 fst_status fst_load_hdf5_module(const fst_hdf5_module_table **module, const char *path, fst_error *error);
 
+/* Load the module, and a file as a whole: so no read can fail while HDF5 works, which could not stand that. The
+ * caller frees the bytes. */
+fst_status fst_load_hdf5_file(const fst_hdf5_module_table **module, const char *path, char **bytes,
+                              size_t *size, fst_error *error);
+
 #endif

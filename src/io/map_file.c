@@ -14,12 +14,16 @@ static fst_status read_points(const char *text, size_t size, fst_map_points *poi
 {
     if (fst_ends_in(points->path, ".csv") || fst_ends_in(points->path, ".txt"))
         return fst_map_csv_read(text, size, points);
-    if (fst_ends_in(points->path, ".vtk") || fst_ends_in(points->path, ".vti") ||
-        fst_ends_in(points->path, ".vtr"))
+    if (fst_ends_in(points->path, ".vtk"))
         return fst_map_vtk_read(text, size, points);
+    if (fst_ends_in(points->path, ".vti") || fst_ends_in(points->path, ".vtr"))
+        return fst_map_points_refuse(points,
+                                     "VTK's XML is not read: meshio makes a file of it that is, by meshio "
+                                     "convert map%s map.vtk",
+                                     strrchr(points->path, '.'));
     if (fst_ends_in(points->path, ".h5") || fst_ends_in(points->path, ".hdf5"))
         return fst_map_hdf5_read(points);
-    return fst_map_points_refuse(points, "the name of a map ends in .csv, .vtk, .vti, .vtr or .h5");
+    return fst_map_points_refuse(points, "the name of a map ends in .csv, .txt, .vtk or .h5");
 }
 
 fst_status fst_field_map_read(const char *path, const fst_progress *progress, fst_field_map **map,

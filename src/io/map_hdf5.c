@@ -48,14 +48,17 @@ fst_status fst_map_hdf5_read(fst_map_points *points)
 {
     const fst_hdf5_module_table *module;
     fst_hdf5_map map = {.b = NULL};
+    char *bytes;
+    size_t size;
     points->called = "sample";
-    fst_status status = fst_load_hdf5_module(&module, points->path, points->error);
+    fst_status status = fst_load_hdf5_file(&module, points->path, &bytes, &size, points->error);
     if (status == FST_OK)
-        status = module->read_map(points->path, &map, points->error);
+        status = module->read_map(points->path, bytes, size, &map, points->error);
     if (status == FST_OK)
         status = add_samples(&map, points);
     for (int axis = 0; axis < 3; ++axis)
         free(map.places[axis]);
     free(map.b);
+    free(bytes);
     return status;
 }

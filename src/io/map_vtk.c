@@ -1,6 +1,6 @@
-/* map_vtk.c - reading a map of the field from a file of VTK, in whichever of its formats; here the legacy one.
+/* map_vtk.c - reading a map of the field from a legacy file of VTK.
  *
- * A legacy file is lines of words, with blocks of numbers between them, as text or as binary numbers of the
+ * It is lines of words, with blocks of numbers between them, as text or as binary numbers of the
  * highest byte first:
  *
  *     # vtk DataFile Version 3.0            the first line
@@ -14,8 +14,6 @@
  *     VECTORS name type                     or FIELD with an array of three components
  *     numbers
  */
-#include "io/map_vtk.h"
-
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,8 +22,145 @@
 #include "base/error.h"
 #include "base/number.h"
 #include "base/text.h"
+#include "io/map_points.h"
 
 enum { WORD_SIZE = 64 };
+
+/* ------------------------------------------------------------------ the grid */
+
+/* A grid as the file has it: places along each axis, and vectors, of which x runs fastest. */
+typedef struct vtk_grid {
+    int count[3];
+    double *places[3];
+    double *vectors;
+    char name[64]; /* of the vectors */
+    fst_map_points *points;
+} vtk_grid;
+
+static size_t samples_of(const vtk_grid *grid)
+{
+    return (size_t)grid->count[0] * (size_t)grid->count[1] * (size_t)grid->count[2];
+}
+
+static fst_status set_counts(vtk_grid *grid, const double counts[3])
+{
+    double all = 1.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!(counts[axis] >= 1 && counts[axis] <= 1e6) || counts[axis] != floor(counts[axis]))
+            return fst_map_points_refuse(grid->points, "%g samples along %c make no grid", counts[axis],
+                                         "xyz"[axis]);
+        grid->count[axis] = (int)counts[axis];
+        all *= counts[axis];
+    }
+    if (all > FST_MAP_SAMPLES_LIMIT)
+        return fst_map_points_refuse(grid->points, "a grid of %.0f samples is larger than a map may be, %d",
+                                     all, FST_MAP_SAMPLES_LIMIT);
+    return FST_OK;
+}
+
+static double *room_for(vtk_grid *grid, int axis)
+{
+    double **room = axis < 3 ? &grid->places[axis] : &grid->vectors;
+    free(*room);
+    *room = calloc(axis < 3 ? (size_t)grid->count[axis] : 3 * samples_of(grid), sizeof **room);
+    if (!*room)
+        (void)fst_fail(grid->points->error, FST_NO_MEMORY, grid->points->path, "no memory for this map");
+    return *room;
+}
+
+static fst_status space_evenly(vtk_grid *grid, int axis, double first, double spacing)
+{
+    double *places = room_for(grid, axis);
+    if (!places)
+        return FST_NO_MEMORY;
+    for (int i = 0; i < grid->count[axis]; ++i)
+        places[i] = first + i * spacing;
+    return FST_OK;
+}
+
+/* The factors to T and m of "B[mT,mm]". */
+static fst_status read_units(const vtk_grid *grid, double *tesla, double *metre)
+{
+    char unit[2][24] = {"T", "m"}, whole[32];
+    const char *open = strchr(grid->name, '[');
+    fst_error why;
+    if (open) {
+        const char *comma = strchr(open, ','), *close = strchr(open, ']');
+        const size_t first = strcspn(open + 1, ",]");
+        (void)snprintf(unit[0], sizeof unit[0], "%.*s", (int)(first < 20 ? first : 20), open + 1);
+        if (comma && close && comma < close)
+            (void)snprintf(unit[1], sizeof unit[1], "%.*s",
+                           (int)(close - comma - 1 < 20 ? close - comma - 1 : 20), comma + 1);
+    }
+    (void)snprintf(whole, sizeof whole, "1 %s", unit[0]);
+    if (fst_parse_value(whole, FST_UNIT_FIELD, tesla, &why) != FST_OK)
+        return fst_map_points_refuse(grid->points, "the vectors \"%s\": %s", grid->name, why.sentence);
+    (void)snprintf(whole, sizeof whole, "1 %s", unit[1]);
+    if (fst_parse_value(whole, FST_UNIT_LENGTH, metre, &why) != FST_OK)
+        return fst_map_points_refuse(grid->points, "the vectors \"%s\": %s", grid->name, why.sentence);
+    return FST_OK;
+}
+
+static fst_status add_samples(vtk_grid *grid)
+{
+    double tesla, metre;
+    static const double farthest = 10.0; /* m: nobody measures a magnet so far away */
+    if (!grid->vectors || !grid->places[0] || !grid->places[1] || !grid->places[2])
+        return fst_map_points_refuse(grid->points, "the %s missing",
+                                     grid->vectors ? "places of the grid are" : "vectors of the field are");
+    fst_status status = read_units(grid, &tesla, &metre);
+    for (int axis = 0; axis < 3 && status == FST_OK; ++axis)
+        for (int i = 0; i < grid->count[axis]; ++i)
+            if (!(fabs(grid->places[axis][i] * metre) <= farthest))
+                return fst_map_points_refuse(
+                    grid->points,
+                    "a place of the map along %c is %g m from the origin: VTK knows no units, so places are "
+                    "in metres and fields in tesla unless the name of the vectors says, as in B[mT,mm]",
+                    "xyz"[axis], grid -> places[axis][i] * metre);
+    const size_t samples = status == FST_OK ? samples_of(grid) : 0;
+    for (size_t i = 0; i < samples && status == FST_OK; ++i) {
+        double row[MAP_COLUMNS];
+        size_t rest = i;
+        for (int axis = 0; axis < 3; ++axis) {
+            row[axis] = grid->places[axis][rest % (size_t)grid->count[axis]] * metre;
+            rest /= (size_t)grid->count[axis];
+            row[MAP_BX + axis] = grid->vectors[3 * i + (size_t)axis] * tesla;
+        }
+        for (int c = 0; c < 3; ++c)
+            if (!isfinite(row[MAP_BX + c]))
+                return fst_map_points_fail(grid->points, i + 1, "B%c is %g, not finite", "xyz"[c],
+                                           row[MAP_BX + c]);
+        status = fst_map_points_add(grid->points, row, i + 1);
+    }
+    return status;
+}
+
+static void free_grid(vtk_grid *grid)
+{
+    for (int axis = 0; axis < 3; ++axis)
+        free(grid->places[axis]);
+    free(grid->vectors);
+}
+
+/* Numbers of 4 or 8 bytes, of the highest byte first. */
+static void take_floats(const unsigned char *bytes, size_t count, int size, double *numbers)
+{
+    for (size_t i = 0; i < count; ++i, bytes += size) {
+        uint64_t word = 0;
+        for (int k = 0; k < size; ++k)
+            word |= (uint64_t)bytes[size - 1 - k] << (8 * k);
+        if (size == 8) {
+            memcpy(&numbers[i], &word, sizeof word);
+        } else {
+            const uint32_t half = (uint32_t)word;
+            float number;
+            memcpy(&number, &half, sizeof half);
+            numbers[i] = (double)number;
+        }
+    }
+}
+
+/* ------------------------------------------------------------------ the file */
 
 typedef struct legacy {
     const char *at, *end;
@@ -94,7 +229,7 @@ static fst_status read_block(legacy *file, const char *type, size_t count, doubl
         return fst_map_points_refuse(file->grid->points,
                                      "the file is cut off: %zu numbers of %d bytes are expected at its end",
                                      count, size);
-    vtk_floats((const unsigned char *)file->at, count, size, 1, numbers);
+    take_floats((const unsigned char *)file->at, count, size, numbers);
     file->at += count * (size_t)size;
     return FST_OK;
 }
@@ -116,7 +251,7 @@ static fst_status read_places(legacy *file, int axis)
     if (status == FST_OK && (!next_word(file, type) || count != file->grid->count[axis]))
         status = fst_map_points_refuse(file->grid->points, "%g places along %c, where DIMENSIONS says %d",
                                        count, "xyz"[axis], file -> grid -> count[axis]);
-    double *places = status == FST_OK ? vtk_room(file->grid, axis) : NULL;
+    double *places = status == FST_OK ? room_for(file->grid, axis) : NULL;
     if (status == FST_OK && !places)
         return FST_NO_MEMORY;
     return status == FST_OK ? read_block(file, type, (size_t)count, places) : status;
@@ -125,12 +260,12 @@ static fst_status read_places(legacy *file, int axis)
 /* The vectors `name`; the first ones of the file are the field. */
 static fst_status read_vectors(legacy *file, const char *name, const char *type, double samples)
 {
-    if (samples != (double)vtk_samples(file->grid))
+    if (samples != (double)samples_of(file->grid))
         return fst_map_points_refuse(file->grid->points, "%g vectors on a grid of %zu samples", samples,
-                                     vtk_samples(file->grid));
+                                     samples_of(file->grid));
     (void)snprintf(file->grid->name, sizeof file->grid->name, "%.60s", name);
-    double *vectors = vtk_room(file->grid, 3);
-    return vectors ? read_block(file, type, 3 * vtk_samples(file->grid), vectors) : FST_NO_MEMORY;
+    double *vectors = room_for(file->grid, 3);
+    return vectors ? read_block(file, type, 3 * samples_of(file->grid), vectors) : FST_NO_MEMORY;
 }
 
 /* FIELD name arrays, each: name components tuples type; the first of three components is the field. */
@@ -168,7 +303,7 @@ static fst_status read_keyword(legacy *file, const char *word, double origin[3],
             return read_places(file, axis);
     if (is(word, "DIMENSIONS")) {
         const fst_status status = read_three(file, counts);
-        return status == FST_OK ? vtk_set_counts(file->grid, counts) : status;
+        return status == FST_OK ? set_counts(file->grid, counts) : status;
     }
     if (is(word, "ORIGIN"))
         return read_three(file, origin);
@@ -225,19 +360,21 @@ static fst_status read_legacy(const char *text, size_t size, vtk_grid *grid)
         status = read_keyword(&file, word, origin, spacing, &samples);
     }
     for (int axis = 0; axis < 3 && even && status == FST_OK && grid->count[0]; ++axis)
-        status = vtk_space_evenly(grid, axis, origin[axis], spacing[axis]);
+        status = space_evenly(grid, axis, origin[axis], spacing[axis]);
     return status;
 }
 
 fst_status fst_map_vtk_read(const char *text, size_t size, fst_map_points *points)
 {
-    static const char legacy_mark[] = "# vtk DataFile";
+    static const char mark[] = "# vtk DataFile";
     vtk_grid grid = {.points = points};
     points->called = "sample";
-    const int is_legacy = size > sizeof legacy_mark && memcmp(text, legacy_mark, sizeof legacy_mark - 1) == 0;
-    fst_status status = is_legacy ? read_legacy(text, size, &grid) : vtk_read_xml(text, size, &grid);
+    if (size <= sizeof mark || memcmp(text, mark, sizeof mark - 1) != 0)
+        return fst_map_points_refuse(points, "this is no legacy file of VTK: it does not begin with \"%s\"",
+                                     mark);
+    fst_status status = read_legacy(text, size, &grid);
     if (status == FST_OK)
-        status = vtk_add_samples(&grid);
-    vtk_free(&grid);
+        status = add_samples(&grid);
+    free_grid(&grid);
     return status;
 }

@@ -6,121 +6,111 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/grow.h"
 #include "base/text.h"
 #include "host/regular_file.h"
 #include "host/whole_file.h"
-#include "io/json_parts.h"
+#include "io/branch_points.h"
+#include "io/json.h"
 
 enum { INDENT = 2 };
 
 #define SPACES " \t\r\n"
 
-static json_t *pairs(const double *re, const double *im, int count)
+static void put_orbit(fst_json *json, const fst_params *params, const fst_orbit *orbit)
 {
-    json_t *array = json_array();
-    for (int i = 0; i < count; ++i) {
-        const double pair[2] = {re[i], im[i]};
-        json_array_append_new(array, fst_json_numbers(pair, 2));
-    }
-    return array;
-}
-
-static json_t *symmetry_of(fst_symmetry symmetry)
-{
-    const char *name = fst_symmetry_name(symmetry);
-    return name ? json_string(name) : json_null();
-}
-
-static json_t *orbit_object(const fst_params *params, const fst_orbit *orbit)
-{
-    json_t *object = fst_json_run(params, &orbit->means);
-    /* Remove what describes a run and its length: an orbit has neither. */
+    /* What describes a run and its length: an orbit has neither. */
     static const char *const of_runs[] = {"reason",        "returns",          "rhs_calls",
                                           "accepted",      "rejected",         "final_state",
                                           "periods",       "window_periods",   "end_time",
                                           "norm_drift",    "mean_r_error",     "mean_alpha_dot_error",
                                           "mean_nz_error", "largest_exponent", "largest_exponent_error",
                                           "ramp"};
+    fst_json_run(json, params, &orbit->means);
     for (size_t i = 0; i < sizeof of_runs / sizeof *of_runs; ++i)
-        (void)json_object_del(object, of_runs[i]);
-    json_object_set_new(object, "symmetry", symmetry_of(orbit->symmetry));
-    json_object_set_new(object, "period", fst_json_number(orbit->means.period));
-    json_object_set_new(object, "turns", json_integer(orbit->turns));
-    json_object_set_new(object, "multipliers",
-                        pairs(orbit->multiplier_re, orbit->multiplier_im, FST_MULTIPLIER_COUNT));
-    json_object_set_new(object, "stable", json_boolean(orbit->stable));
-    json_object_set_new(object, "relaxation_time", fst_json_number(orbit->relaxation_time));
-    json_object_set_new(object, "swing_ratio", fst_json_number(orbit->swing_ratio));
-    json_object_set_new(object, "residual", fst_json_number(orbit->residual));
-    json_object_set_new(object, "trivial_multiplier_error", fst_json_number(orbit->trivial_error));
-    json_object_set_new(object, "state", fst_json_numbers(orbit->state, FST_STATE_SIZE));
-    return object;
+        (void)json_object_del(json->open[json->depth - 1], of_runs[i]);
+    fst_json_text(json, "symmetry", fst_symmetry_name(orbit->symmetry));
+    fst_json_real(json, "period", orbit->means.period);
+    fst_json_integer(json, "turns", orbit->turns);
+    fst_json_pairs(json, "multipliers", orbit->multiplier_re, orbit->multiplier_im, FST_MULTIPLIER_COUNT);
+    fst_json_flag(json, "stable", orbit->stable);
+    fst_json_real(json, "relaxation_time", orbit->relaxation_time);
+    fst_json_real(json, "swing_ratio", orbit->swing_ratio);
+    fst_json_real(json, "residual", orbit->residual);
+    fst_json_real(json, "trivial_multiplier_error", orbit->trivial_error);
+    fst_json_reals(json, "state", orbit->state, FST_STATE_SIZE);
 }
 
 char *fst_orbit_json(const fst_params *params, const fst_orbit *orbit, const fst_orbit *others, size_t count)
 {
-    json_t *object = orbit_object(params, orbit);
+    fst_json json = fst_json_begin('{');
+    put_orbit(&json, params, orbit);
     if (others) {
-        json_t *array = json_array();
-        for (size_t i = 0; i < count; ++i)
-            json_array_append_new(array, orbit_object(params, &others[i]));
-        json_object_set_new(object, "others", array);
+        fst_json_open(&json, "others", '[');
+        for (size_t i = 0; i < count; ++i) {
+            fst_json_open(&json, NULL, '{');
+            put_orbit(&json, params, &others[i]);
+            fst_json_close(&json);
+        }
+        fst_json_close(&json);
     }
-    json_object_set_new(object, "scene", fst_json_scene(params));
-    return fst_json_dump(object, JSON_INDENT(INDENT));
+    fst_json_scene(&json, params);
+    return fst_json_end(&json, JSON_INDENT(INDENT));
 }
 
-static json_t *rolling_object(const fst_rolling_lock *l)
+static void put_rolling(fst_json *json, const char *key, const fst_rolling_lock *l)
 {
-    json_t *state = json_object();
-    json_object_set_new(state, "r", fst_json_number(l->r));
-    json_object_set_new(state, "phi_deg", fst_json_number(l->bead_angle_deg));
-    json_object_set_new(state, "n", fst_json_numbers(l->state + FST_NX, 3));
-    json_object_set_new(state, "w", fst_json_numbers(l->state + FST_WX, 3));
-    json_object_set_new(state, "use", fst_json_number(l->use));
-    json_object_set_new(state, "end", json_string(fst_rolling_end_name(l->end)));
-    json_object_set_new(state, "state", fst_json_numbers(l->state, FST_STATE_SIZE));
-    return state;
+    fst_json_open(json, key, '{');
+    fst_json_real(json, "r", l->r);
+    fst_json_real(json, "phi_deg", l->bead_angle_deg);
+    fst_json_reals(json, "n", l->state + FST_NX, 3);
+    fst_json_reals(json, "w", l->state + FST_WX, 3);
+    fst_json_real(json, "use", l->use);
+    fst_json_text(json, "end", fst_rolling_end_name(l->end));
+    fst_json_reals(json, "state", l->state, FST_STATE_SIZE);
+    fst_json_close(json);
+}
+
+static void put_locked(fst_json *json, const fst_locked *l)
+{
+    fst_json_open(json, NULL, '{');
+    fst_json_real(json, "r", l->r);
+    fst_json_real(json, "phi_deg", l->bead_angle_deg);
+    fst_json_reals(json, "n", l->state + FST_NX, 3);
+    fst_json_reals(json, "w", l->state + FST_WX, 3);
+    fst_json_pairs(json, "eigenvalues", l->eigenvalue_re, l->eigenvalue_im, FST_EIGENVALUE_COUNT);
+    fst_json_flag(json, "stable", l->stable);
+    fst_json_real(json, "slip", l->slip);
+    fst_json_real(json, "friction_power", l->friction_power);
+    fst_json_real(json, "residual", l->residual);
+    fst_json_integer(json, "found", l->found);
+    fst_json_reals(json, "state", l->state, FST_STATE_SIZE);
+    fst_json_close(json);
 }
 
 char *fst_locked_json(const fst_params *params, double omega, const fst_locked_list *list)
 {
-    json_t *states = json_array();
-    for (size_t i = 0; i < list->count; ++i) {
-        const fst_locked *l = &list->states[i];
-        json_t *state = json_object();
-        json_object_set_new(state, "r", fst_json_number(l->r));
-        json_object_set_new(state, "phi_deg", fst_json_number(l->bead_angle_deg));
-        json_object_set_new(state, "n", fst_json_numbers(l->state + FST_NX, 3));
-        json_object_set_new(state, "w", fst_json_numbers(l->state + FST_WX, 3));
-        json_object_set_new(state, "eigenvalues",
-                            pairs(l->eigenvalue_re, l->eigenvalue_im, FST_EIGENVALUE_COUNT));
-        json_object_set_new(state, "stable", json_boolean(l->stable));
-        json_object_set_new(state, "slip", fst_json_number(l->slip));
-        json_object_set_new(state, "friction_power", fst_json_number(l->friction_power));
-        json_object_set_new(state, "residual", fst_json_number(l->residual));
-        json_object_set_new(state, "found", json_integer(l->found));
-        json_object_set_new(state, "state", fst_json_numbers(l->state, FST_STATE_SIZE));
-        json_array_append_new(states, state);
-    }
-    json_t *object = json_object();
-    json_object_set_new(object, "omega", fst_json_number(omega));
-    json_object_set_new(object, "states", states);
+    fst_json json = fst_json_begin('{');
+    fst_json_real(&json, "omega", omega);
+    fst_json_open(&json, "states", '[');
+    for (size_t i = 0; i < list->count; ++i)
+        put_locked(&json, &list->states[i]);
+    fst_json_close(&json);
     if (params->friction_law == FST_FRICTION_COULOMB || params->friction_law == FST_FRICTION_ROLLING) {
-        json_t *families = json_array();
+        fst_json_open(&json, "families", '[');
         for (size_t i = 0; i < list->family_count; ++i) {
-            json_t *family = json_object();
-            json_object_set_new(family, "from", rolling_object(&list->families[i].from));
-            json_object_set_new(family, "to", rolling_object(&list->families[i].to));
-            json_array_append_new(families, family);
+            fst_json_open(&json, NULL, '{');
+            put_rolling(&json, "from", &list->families[i].from);
+            put_rolling(&json, "to", &list->families[i].to);
+            fst_json_close(&json);
         }
-        json_object_set_new(object, "families", families);
+        fst_json_close(&json);
     }
-    json_object_set_new(object, "starts", json_integer(list->starts));
-    json_object_set_new(object, "index_sum", json_integer(list->index_sum));
-    json_object_set_new(object, "truncated", json_boolean(list->truncated));
-    json_object_set_new(object, "scene", fst_json_scene(params));
-    return fst_json_dump(object, JSON_INDENT(INDENT));
+    fst_json_integer(&json, "starts", list->starts);
+    fst_json_integer(&json, "index_sum", list->index_sum);
+    fst_json_flag(&json, "truncated", list->truncated);
+    fst_json_scene(&json, params);
+    return fst_json_end(&json, JSON_INDENT(INDENT));
 }
 
 const fst_point_number fst_point_numbers[FST_POINT_NUMBER_COUNT] = {
@@ -139,84 +129,94 @@ const fst_point_number fst_point_numbers[FST_POINT_NUMBER_COUNT] = {
     {"swing_ratio", offsetof(fst_branch_point, swing_ratio)},
 };
 
-static json_t *point_object(const fst_branch_point *p)
+static void put_point(fst_json *json, const char *key, const fst_branch_point *p)
 {
-    json_t *object = json_object();
+    fst_json_open(json, key, '{');
     for (int i = 0; i < FST_POINT_NUMBER_COUNT; ++i) {
         double value;
         memcpy(&value, (const char *)p + fst_point_numbers[i].offset, sizeof value);
-        json_object_set_new(object, fst_point_numbers[i].key, fst_json_number(value));
+        fst_json_real(json, fst_point_numbers[i].key, value);
     }
-    json_object_set_new(object, "symmetry", symmetry_of(p->symmetry));
-    json_object_set_new(object, "stable", json_boolean(p->stable));
-    json_object_set_new(object, "turns", json_integer(p->turns));
-    json_object_set_new(object, "branch", json_integer(p->branch));
-    json_object_set_new(object, p->multipliers == FST_EIGENVALUE_COUNT ? "eigenvalues" : "multipliers",
-                        pairs(p->multiplier_re, p->multiplier_im, p->multipliers));
-    json_object_set_new(object, "state", fst_json_numbers(p->state, FST_STATE_SIZE));
-    return object;
+    fst_json_text(json, "symmetry", fst_symmetry_name(p->symmetry));
+    fst_json_flag(json, "stable", p->stable);
+    fst_json_integer(json, "turns", p->turns);
+    fst_json_integer(json, "branch", p->branch);
+    fst_json_pairs(json, p->multipliers == FST_EIGENVALUE_COUNT ? "eigenvalues" : "multipliers",
+                   p->multiplier_re, p->multiplier_im, p->multipliers);
+    fst_json_reals(json, "state", p->state, FST_STATE_SIZE);
+    fst_json_close(json);
 }
 
-static json_t *special_object(const fst_branch *branch, const fst_special *s)
+/* The special points of a branch; or those where two families only cross, because nothing is born or ends
+ * there. */
+static void put_specials(fst_json *json, const char *key, const fst_branch *branch, int crossings)
 {
-    json_t *object = json_object();
-    json_object_set_new(object, "type", json_string(fst_special_name(s->type)));
-    json_object_set_new(object, "parameter", json_string(branch->key));
-    json_object_set_new(object, "value", fst_json_number(s->value));
-    json_object_set_new(object, "omega", fst_json_number(s->omega));
-    json_object_set_new(object, "branch", json_integer(s->branch));
-    json_object_set_new(object, "criticality",
-                        s->criticality ? json_string(s->criticality > 0 ? "supercritical" : "subcritical")
-                                       : json_null());
-    json_object_set_new(object, "born", s->born >= 0 ? json_integer(s->born) : json_null());
-    json_object_set_new(object, "at", point_object(&s->at));
-    return object;
+    fst_json_open(json, key, '[');
+    for (size_t i = 0; i < branch->special_count; ++i) {
+        const fst_special *s = &branch->specials[i];
+        if ((s->type == FST_SPECIAL_TRANSCRITICAL) != crossings)
+            continue;
+        fst_json_open(json, NULL, '{');
+        fst_json_text(json, "type", fst_special_name(s->type));
+        fst_json_text(json, "parameter", branch->key);
+        fst_json_real(json, "value", s->value);
+        fst_json_real(json, "omega", s->omega);
+        fst_json_integer(json, "branch", s->branch);
+        fst_json_text(json, "criticality",
+                      s->criticality > 0   ? "supercritical"
+                      : s->criticality < 0 ? "subcritical"
+                                           : NULL);
+        fst_json_place(json, "born", s->born);
+        put_point(json, "at", &s->at);
+        fst_json_close(json);
+    }
+    fst_json_close(json);
+}
+
+static void put_end(fst_json *json, const fst_branch_end *e, int over_two)
+{
+    fst_json_open(json, NULL, '{');
+    fst_json_integer(json, "branch", e->branch);
+    fst_json_place(json, "born_on", e->family);
+    fst_json_real(json, "value", e->value);
+    if (e->type != FST_END_NONE)
+        fst_json_text(json, "type", fst_end_name(e->type));
+    fst_json_text(json, "reason", e->reason);
+    if (!over_two && e->image >= 0 && e->image != e->branch)
+        fst_json_integer(json, "image_under_s2", e->image);
+    else if (!over_two)
+        fst_json_text(json, "image_under_s2", e->image >= 0 ? "itself" : "not listed");
+    fst_json_close(json);
 }
 
 char *fst_branch_json(const fst_params *params, const fst_branch *branch)
 {
-    json_t *object = json_object(), *points = json_array(), *specials = json_array(), *ends = json_array(),
-           *crossings = json_array();
+    const int over_two = branch->second_key[0] != '\0';
+    fst_json json = fst_json_begin('{');
+    fst_json_text(&json, "kind", fst_branch_kind_name(branch->kind));
+    fst_json_text(&json, "parameter", branch->key);
+    fst_json_real(&json, "from", branch->from);
+    fst_json_real(&json, "to", branch->to);
+    if (over_two) {
+        fst_json_text(&json, "followed", fst_special_name(branch->followed));
+        fst_json_text(&json, "second_parameter", branch->second_key);
+        fst_json_real(&json, "second_from", branch->second_from);
+        fst_json_real(&json, "second_to", branch->second_to);
+    }
+    fst_json_flag(&json, "complete", branch->complete);
+    fst_json_integer(&json, "branches", branch->branches);
+    put_specials(&json, "specials", branch, 0);
+    put_specials(&json, "crossings", branch, 1);
+    fst_json_open(&json, "ends", '[');
+    for (size_t i = 0; i < branch->end_count; ++i)
+        put_end(&json, &branch->ends[i], over_two);
+    fst_json_close(&json);
+    fst_json_open(&json, "points", '[');
     for (size_t i = 0; i < branch->point_count; ++i)
-        json_array_append_new(points, point_object(&branch->points[i]));
-    for (size_t i = 0; i < branch->special_count;
-         i++) /* nothing is born or ends where two families only cross */
-        json_array_append_new(branch->specials[i].type == FST_SPECIAL_TRANSCRITICAL ? crossings : specials,
-                              special_object(branch, &branch->specials[i]));
-    for (size_t i = 0; i < branch->end_count; ++i) {
-        const fst_branch_end *e = &branch->ends[i];
-        json_t *end = json_object();
-        json_object_set_new(end, "branch", json_integer(e->branch));
-        json_object_set_new(end, "born_on", e->family >= 0 ? json_integer(e->family) : json_null());
-        json_object_set_new(end, "value", fst_json_number(e->value));
-        if (e->type != FST_END_NONE)
-            json_object_set_new(end, "type", json_string(fst_end_name(e->type)));
-        json_object_set_new(end, "reason", json_string(e->reason));
-        if (!branch->second_key[0])
-            json_object_set_new(end, "image_under_s2",
-                                e->image == e->branch ? json_string("itself")
-                                : e->image >= 0       ? json_integer(e->image)
-                                                      : json_string("not listed"));
-        json_array_append_new(ends, end);
-    }
-    json_object_set_new(object, "kind", json_string(fst_branch_kind_name(branch->kind)));
-    json_object_set_new(object, "parameter", json_string(branch->key));
-    json_object_set_new(object, "from", fst_json_number(branch->from));
-    json_object_set_new(object, "to", fst_json_number(branch->to));
-    if (branch->second_key[0]) {
-        json_object_set_new(object, "followed", json_string(fst_special_name(branch->followed)));
-        json_object_set_new(object, "second_parameter", json_string(branch->second_key));
-        json_object_set_new(object, "second_from", fst_json_number(branch->second_from));
-        json_object_set_new(object, "second_to", fst_json_number(branch->second_to));
-    }
-    json_object_set_new(object, "complete", json_boolean(branch->complete));
-    json_object_set_new(object, "branches", json_integer(branch->branches));
-    json_object_set_new(object, "specials", specials);
-    json_object_set_new(object, "crossings", crossings);
-    json_object_set_new(object, "ends", ends);
-    json_object_set_new(object, "points", points);
-    json_object_set_new(object, "scene", fst_json_scene(params));
-    return fst_json_dump(object, JSON_INDENT(1));
+        put_point(&json, NULL, &branch->points[i]);
+    fst_json_close(&json);
+    fst_json_scene(&json, params);
+    return fst_json_end(&json, JSON_INDENT(1));
 }
 
 fst_status fst_branch_write(const char *path, const fst_params *params, const fst_branch *branch,
@@ -237,24 +237,24 @@ fst_status fst_branch_write(const char *path, const fst_params *params, const fs
 
 char *fst_lyapunov_json(const fst_params *params, const fst_lyapunov *l)
 {
-    json_t *object = json_object(), *trace = json_array();
-    json_object_set_new(object, "exponents", fst_json_numbers(l->exponents, FST_EIGENVALUE_COUNT));
-    json_object_set_new(object, "errors", fst_json_numbers(l->errors, FST_EIGENVALUE_COUNT));
-    json_object_set_new(object, "error", fst_json_number(l->error));
-    json_object_set_new(object, "converged", json_boolean(l->converged));
-    json_object_set_new(object, "flow_direction",
-                        l->flow_direction >= 0 ? json_integer(l->flow_direction) : json_null());
-    json_object_set_new(object, "divergence", fst_json_number(l->divergence));
-    json_object_set_new(object, "time", fst_json_number(l->time));
+    fst_json json = fst_json_begin('{');
+    fst_json_reals(&json, "exponents", l->exponents, FST_EIGENVALUE_COUNT);
+    fst_json_reals(&json, "errors", l->errors, FST_EIGENVALUE_COUNT);
+    fst_json_real(&json, "error", l->error);
+    fst_json_flag(&json, "converged", l->converged);
+    fst_json_place(&json, "flow_direction", l->flow_direction);
+    fst_json_real(&json, "divergence", l->divergence);
+    fst_json_real(&json, "time", l->time);
+    fst_json_open(&json, "trace", '[');
     for (int i = 0; i < l->trace_count; ++i) {
-        json_t *row = json_object();
-        json_object_set_new(row, "time", fst_json_number(l->trace_time[i]));
-        json_object_set_new(row, "exponents", fst_json_numbers(l->trace[i], FST_EIGENVALUE_COUNT));
-        json_array_append_new(trace, row);
+        fst_json_open(&json, NULL, '{');
+        fst_json_real(&json, "time", l->trace_time[i]);
+        fst_json_reals(&json, "exponents", l->trace[i], FST_EIGENVALUE_COUNT);
+        fst_json_close(&json);
     }
-    json_object_set_new(object, "trace", trace);
-    json_object_set_new(object, "scene", fst_json_scene(params));
-    return fst_json_dump(object, JSON_INDENT(INDENT));
+    fst_json_close(&json);
+    fst_json_scene(&json, params);
+    return fst_json_end(&json, JSON_INDENT(INDENT));
 }
 
 /* ---------------------------------------------------------------- simulated points */
@@ -275,13 +275,28 @@ static int add_dot(const json_t *run, const char *key, const char *observable, d
     const json_t *x = parameter_of(run, key), *y = json_object_get(run, observable);
     if (!json_is_number(x) || !json_is_number(y))
         return 1;
-    double *more = realloc(*dots, 2 * (*count + 1) * sizeof *more);
-    if (!more)
+    if (!fst_grow(dots, *count, 2 * sizeof **dots))
         return 0;
-    *dots = more;
-    more[2 * *count] = json_number_value(x);
-    more[2 * (*count)++ + 1] = json_number_value(y);
+    (*dots)[2 * *count] = json_number_value(x);
+    (*dots)[2 * (*count)++ + 1] = json_number_value(y);
     return 1;
+}
+
+/* How long the document is that begins at `text`: to the bracket that ends it, or all. */
+static size_t document_length(const char *text)
+{
+    int depth = 0, quoted = 0;
+    for (const char *c = text; *c; ++c) {
+        if (*c == '"')
+            quoted = !quoted;
+        else if (quoted)
+            c += *c == '\\' && c[1];
+        else if (*c == '{' || *c == '[')
+            ++depth;
+        else if ((*c == '}' || *c == ']') && --depth <= 0)
+            return (size_t)(c - text) + 1;
+    }
+    return strlen(text);
 }
 
 fst_status fst_run_dots_read(const char *path, const char *key, const char *observable, double **dots,
@@ -297,14 +312,16 @@ fst_status fst_run_dots_read(const char *path, const char *key, const char *obse
     int document = 0;
     for (size_t at = strspn(text, SPACES); at < size && status == FST_OK; at += strspn(text + at, SPACES)) {
         json_error_t why;
-        json_t *run = json_loadb(text + at, size - at, JSON_DISABLE_EOF_CHECK, &why);
+        const size_t length = document_length(text + at);
+        json_t *run = fst_json_read(text + at, length, &why, &status);
         ++document;
-        if (!run)
-            status = fst_fail(error, FST_BAD_INPUT, path, "document %d is no JSON: %s", document, why.text);
-        else if (!add_dot(run, key, observable, dots, count))
-            status = fst_fail(error, FST_NO_MEMORY, path, "out of memory");
-        else
-            at += (size_t)why.position;
+        if (run && !add_dot(run, key, observable, dots, count))
+            status = FST_NO_MEMORY;
+        if (status == FST_NO_MEMORY)
+            (void)fst_fail(error, status, path, "out of memory");
+        else if (!run)
+            (void)fst_fail(error, status, path, "document %d is no JSON: %s", document, why.text);
+        at += length;
         json_decref(run);
     }
     free(text);

@@ -64,7 +64,8 @@ static int is_group(const char *name)
 
 static fst_status unknown_group(scene_reader *reader, int line, const char *name)
 {
-    char names[256] = "", nearest[32], quoted[FST_QUOTE_SIZE], sentence[256];
+    char names[256] = "", quoted[FST_QUOTE_SIZE];
+    char suggestion[FST_SUGGESTION_SIZE], sentence[FST_SUGGESTION_SIZE + FST_QUOTE_SIZE];
     for (int i = 0; i < fst_param_count(); ++i) {
         char group[32];
         const char *key = fst_param_at(i)->key;
@@ -72,9 +73,8 @@ static fst_status unknown_group(scene_reader *reader, int line, const char *name
         if (!strstr(names, group))
             strncat(names, group, sizeof names - strlen(names) - 1);
     }
-    fst_nearest_name(name, names, nearest, sizeof nearest);
-    (void)snprintf(sentence, sizeof sentence, "unknown group %s; the nearest is %s", fst_quote(name, quoted),
-                   nearest);
+    (void)snprintf(sentence, sizeof sentence, "unknown group %s; %s", fst_quote(name, quoted),
+                   fst_suggest_name(name, names, suggestion));
     return fst_scene_fail(reader, line, sentence);
 }
 
@@ -205,49 +205,26 @@ static fst_status read_stream(scene_reader *reader)
 
 /* ---------------------------------------------------------------- applying what was read */
 
-static int line_given(const scene_reader *reader, const char *key)
+static fst_status given_twice(scene_reader *reader, int one, int two)
 {
-    int index = fst_param_find(key);
-    return reader->values[index] ? reader->lines[index] : 0;
-}
-
-/* Whether two keys of the scene, which are two forms of one quantity, may stand beside each other: B0 beside
- * kappa, save where the moment is told too, and beside a real magnet. */
-static int may_stand_together(const scene_reader *reader, const char *key, const char *other, int real)
-{
-    const int strength = strcmp(key, "model.kappa") == 0 || strcmp(other, "model.kappa") == 0;
-    return strength && (real || (!line_given(reader, "bead.moment") && !line_given(reader, "bead.remanence")));
-}
-
-static fst_status check_pair(scene_reader *reader, const char *one, const char *two, const char *with)
-{
-    const int a = line_given(reader, one), b = line_given(reader, two);
+    const int last = reader->lines[one] >= reader->lines[two] ? one : two, first = one + two - last;
+    const char *key = fst_param_at(last)->key, *other = fst_param_at(first)->key;
+    const int field = strcmp(key, "magnet.b0") == 0 || strcmp(other, "magnet.b0") == 0;
     char sentence[256];
-    if (!a || !b)
-        return FST_OK;
     (void)snprintf(sentence, sizeof sentence,
-                   "%s is given here and %s%s on line %d: they give the same quantity, keep one",
-                   a >= b ? one : two, a >= b ? two : one, with, a >= b ? b : a);
-    return fst_scene_fail(reader, a >= b ? a : b, sentence);
+                   "%s is given here and %s on line %d: %sthey give the same quantity, keep one", key, other,
+                   reader->lines[first], field ? "with the bead's moment " : "");
+    return fst_scene_fail(reader, reader->lines[last], sentence);
 }
 
 /* A quantity given in two ways is an error, because nobody knows which was meant. */
 static fst_status check_forms(scene_reader *reader, const fst_params *params)
 {
-    const int real = fst_magnet_in_tesla(params);
-    for (int i = 0; i < fst_param_count(); ++i) {
-        const char *key = fst_param_at(i)->key, *other = fst_param_other_form(key);
-        if (!other || !reader->values[i] || may_stand_together(reader, key, other, real))
-            continue;
-        const int strength = strcmp(key, "model.kappa") == 0 || strcmp(other, "model.kappa") == 0;
-        const fst_status status = check_pair(reader, key, other, strength ? " (with bead.moment)" : "");
-        if (status != FST_OK)
-            return status;
-    }
-    fst_status status = real ? check_pair(reader, "model.kappa", "bead.moment", "") : FST_OK;
-    if (status == FST_OK && real)
-        status = check_pair(reader, "model.kappa", "bead.remanence", "");
-    return status;
+    for (int one = 0; one < fst_param_count(); ++one)
+        for (int two = one + 1; two < fst_param_count() && reader->values[one]; ++two)
+            if (reader->values[two] && fst_params_clash(params, fst_param_at(one)->key, fst_param_at(two)->key))
+                return given_twice(reader, one, two);
+    return FST_OK;
 }
 
 static fst_status set_given(const scene_reader *reader, int index, fst_params *params)

@@ -11,7 +11,7 @@
 
 enum { KIND, CENTRE, SIZE, REMANENCE, MOMENT, ROTATION, FIELDS, MOST_VALUES = 4 };
 
-/* The keys of a part.  `shape` shows a list of them; of a size the kind tells it. */
+/* The keys of a part.  `shape` shows a list of them; the unit of a size follows from the kind. */
 static const struct {
     const char *name, *shape;
     int values;
@@ -95,7 +95,7 @@ static fst_status read_values(scene_reader *reader, part_text *p, int field)
 
 static fst_status find_field(scene_reader *reader, const part_text *p, const yaml_event_t *key, int *field)
 {
-    char sentence[256], nearest[16], quoted[FST_QUOTE_SIZE];
+    char sentence[FST_SUGGESTION_SIZE], suggestion[FST_SUGGESTION_SIZE], quoted[FST_QUOTE_SIZE];
     const int line = fst_scene_line(key->start_mark);
     const char *name = key->type == YAML_SCALAR_EVENT ? fst_scene_scalar(key) : NULL;
     if (!name)
@@ -103,10 +103,8 @@ static fst_status find_field(scene_reader *reader, const part_text *p, const yam
     for (*field = 0; *field < FIELDS && strcmp(fields[*field].name, name) != 0;)
         ++*field;
     if (*field == FIELDS) {
-        fst_nearest_name(name, FIELD_NAMES, nearest, sizeof nearest);
-        (void)snprintf(sentence, sizeof sentence,
-                       "magnet.parts[%d]: unknown key %s; the nearest is %s (keys of a part: %s)", p->part,
-                       fst_quote(name, quoted), nearest, FIELD_NAMES);
+        (void)snprintf(sentence, sizeof sentence, "magnet.parts[%d]: unknown key %s; %.400s", p->part,
+                       fst_quote(name, quoted), fst_suggest_name(name, FIELD_NAMES, suggestion));
         return fst_scene_fail(reader, line, sentence);
     }
     if (p->lines[*field]) {
@@ -168,9 +166,9 @@ static fst_status too_few(scene_reader *reader, const part_text *p, int field, i
     char sentence[256], name[32];
     const char *shape = field == SIZE ? size_shapes[kind] : fields[field].shape;
     const char *names = fst_param_at(row_of(p, KIND, 0))->names;
-    for (int i = 0; i < kind; ++i)
-        names += strcspn(names, "|") + 1;
-    (void)snprintf(name, sizeof name, "%.*s", (int)strcspn(names, "|"), names);
+    size_t length;
+    names = fst_name_at(names, kind, &length);
+    (void)snprintf(name, sizeof name, "%.*s", (int)length, names);
     if (p->lines[field])
         (void)snprintf(sentence, sizeof sentence, "magnet.parts[%d].%s has %d value%s, but that of a %s is %s",
                        p->part, fields[field].name, p->counts[field], p->counts[field] == 1 ? "" : "s", name,

@@ -197,18 +197,12 @@ static void write_scene(FILE *out, const fst_params *params, int commented)
 
 char *fst_scene_text(const fst_params *params, int commented)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
+    fst_printed printed;
+    FILE *out = fst_print_begin(&printed);
     if (!out)
         return NULL;
     write_scene(out, params, commented);
-    int failed = ferror(out);
-    if (fclose(out) != 0 || failed) {
-        free(text);
-        return NULL;
-    }
-    return text;
+    return fst_print_end(&printed);
 }
 
 fst_status fst_scene_write(const char *path, const fst_params *params, int commented, int overwrite,

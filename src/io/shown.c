@@ -4,21 +4,18 @@
 #include <math.h>
 #include <string.h>
 
-/* A scaled unit is kg^mass l^length (1/gamma)^time B0^field; `lab` and `si` name its counterparts, and
- * `lab_factor` is how many of the laboratory's unit make one of SI. */
+#include "base/constants.h"
+
+/* A scaled unit is kg^mass l^length (1/gamma)^time B0^field; its counterparts are the units of `kind`. */
 static const struct {
-    const char *scaled, *lab, *si;
+    const char *scaled;
+    fst_unit kind;
     int mass, length, time, field;
-    double lab_factor;
 } units_known[] = {
-    {"l", "mm", "m", 0, 1, 0, 0, 1e3},
-    {"gamma", "1/s", "1/s", 0, 0, -1, 0, 1.0},
-    {"1/gamma", "s", "s", 0, 0, 1, 0, 1.0},
-    {"l gamma", "mm/s", "m/s", 0, 1, -1, 0, 1e3},
-    {"l gamma^2", "mN", "N", 1, 1, -2, 0, 1e3},
-    {"l^2 gamma^2", "uJ", "J", 1, 2, -2, 0, 1e6},
-    {"l^2 gamma^3", "mW", "W", 1, 2, -3, 0, 1e3},
-    {"B0", "mT", "T", 0, 0, 0, 1, 1e3},
+    {"l", FST_UNIT_LENGTH, 0, 1, 0, 0},           {"gamma", FST_UNIT_RATE, 0, 0, -1, 0},
+    {"1/gamma", FST_UNIT_TIME, 0, 0, 1, 0},       {"l gamma", FST_UNIT_SPEED, 0, 1, -1, 0},
+    {"l gamma^2", FST_UNIT_FORCE, 1, 1, -2, 0},   {"l^2 gamma^2", FST_UNIT_ENERGY, 1, 2, -2, 0},
+    {"l^2 gamma^3", FST_UNIT_POWER, 1, 2, -3, 0}, {"B0", FST_UNIT_FIELD, 0, 0, 0, 1},
 };
 
 static double power(double base, int exponent)
@@ -59,17 +56,47 @@ double fst_unit_shown(const char *unit, fst_shown_units units, const fst_scales 
             power(scales->time, units_known[i].time) * (units_known[i].field ? scales->field : 1.0);
         if (!isfinite(factor))
             return 1.0;
-        *name = units == FST_SHOWN_LAB ? units_known[i].lab : units_known[i].si;
-        return units == FST_SHOWN_LAB ? factor * units_known[i].lab_factor : factor;
+        int times = 0;
+        *name = units == FST_SHOWN_LAB ? fst_unit_customary(units_known[i].kind, &times)
+                                       : fst_unit_name(units_known[i].kind);
+        return factor * power(10.0, times);
     }
     return 1.0;
+}
+
+/* Numbers in gamma that say how fast something turns; the others are rates at which something grows or dies out. */
+static int is_rotation(const char *name)
+{
+    static const char *const rotations[] = {"mean_alpha_dot",
+                                            "mean_alpha_dot_error",
+                                            "mean_phi_dot",
+                                            "omega",
+                                            "WX",
+                                            "WY",
+                                            "WZ",
+                                            "w_x",
+                                            "w_y",
+                                            "w_z",
+                                            "spin"};
+    for (size_t i = 0; i < sizeof rotations / sizeof rotations[0]; ++i)
+        if (strcmp(name, rotations[i]) == 0)
+            return 1;
+    return 0;
+}
+
+double fst_number_shown(const char *number, const char *unit, fst_shown_units units, const fst_scales *scales,
+                        const char **name)
+{
+    const double factor = fst_unit_shown(unit, units, scales, name);
+    int power;
+    if (*name == unit || strcmp(unit, "gamma") != 0 || !is_rotation(number))
+        return factor;
+    *name = units == FST_SHOWN_LAB ? fst_unit_customary(FST_UNIT_FREQUENCY, &power) : "rad/s";
+    return units == FST_SHOWN_LAB ? factor / FST_TWO_PI : factor;
 }
 
 double fst_column_shown(const fst_column_info *column, fst_shown_units units, const fst_scales *scales,
                         const char **name)
 {
-    const double factor = fst_unit_shown(column->unit, units, scales, name);
-    if (*name != column->unit && strcmp(column->unit, "gamma") == 0)
-        *name = "rad/s";
-    return factor;
+    return fst_number_shown(column->name, column->unit, units, scales, name);
 }

@@ -2,7 +2,9 @@
  * hold for both. */
 #include <festoon/festoon_tools.h>
 
+#include <errno.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -44,12 +46,8 @@ static fst_status begin(fst_trajectory *trajectory, const char *path, int hdf5, 
         return fst_fail(error, FST_NO_MEMORY, path, "out of memory");
     fst_status status = FST_OK;
     if (hdf5) {
-        /* HDF5 opens the temporary file by its name. */
-        (void)fclose(trajectory->file.stream);
-        trajectory->file.stream = NULL;
-        status =
-            trajectory->module->create(trajectory->file.temporary, trajectory->file.path, trajectory->columns,
-                                       FST_COLUMN_COUNT, scene, &trajectory->writer, error);
+        status = trajectory->module->create(trajectory->file.path, trajectory->columns, FST_COLUMN_COUNT, scene,
+                                            &trajectory->writer, error);
     } else if (trajectory->other_units) {
         fst_csv_begin_in(trajectory->file.stream, scene, trajectory->units);
     } else {
@@ -130,7 +128,7 @@ fst_status fst_trajectory_close(fst_trajectory *trajectory, const fst_run_result
     if (result && !line) {
         status = fst_fail(error, FST_NO_MEMORY, trajectory->file.path, "out of memory");
     } else if (trajectory->writer) {
-        status = trajectory->module->finish(trajectory->writer, line, complete, error);
+        status = trajectory->module->finish(trajectory->writer, line, complete, trajectory->file.stream, error);
         trajectory->writer = NULL;
     } else {
         fst_csv_end(trajectory->file.stream, line, complete);
@@ -156,29 +154,47 @@ void fst_trajectory_discard(fst_trajectory *trajectory)
 
 /* The first eight bytes of every HDF5 file that HDF5 itself made.  (Other programs may put a block of their own
  * first.) */
-static int is_hdf5(FILE *in)
+static fst_status look_for_hdf5(const char *path, int *is_hdf5, fst_error *error)
 {
     static const char signature[8] = {'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
     char begin_bytes[8];
-    int found = fread(begin_bytes, 1, 8, in) == 8 && memcmp(begin_bytes, signature, 8) == 0;
-    rewind(in);
-    return found;
+    int descriptor;
+    const fst_status status = fst_open_regular(path, &descriptor, error);
+    if (status != FST_OK)
+        return status;
+    const ssize_t got = fst_read_at(descriptor, begin_bytes, sizeof begin_bytes, 0);
+    const int reason = errno;
+    (void)close(descriptor);
+    *is_hdf5 = got == sizeof begin_bytes && memcmp(begin_bytes, signature, sizeof signature) == 0;
+    return got < 0 ? fst_fail(error, FST_IO, path, "reading this file failed: %s", strerror(reason)) : FST_OK;
 }
 
 static fst_status read_hdf5(const char *path, fst_table *table, fst_error *error)
 {
     const fst_hdf5_module_table *module;
     const fst_column_info *columns[FST_COLUMN_COUNT];
-    char *scene = NULL;
-    fst_status status = fst_load_hdf5_module(&module, path, error);
+    char *scene = NULL, *bytes;
+    size_t size;
+    fst_status status = fst_load_hdf5_file(&module, path, &bytes, &size, error);
     if (status != FST_OK)
         return status;
     list_columns(columns);
-    status = module->read(path, columns, FST_COLUMNS_BEFORE_FLIGHTS, FST_COLUMN_COUNT, table->columns,
-                          &table->rows, &scene, &table->complete, error);
+    status = module->read(path, bytes, size, columns, FST_COLUMNS_BEFORE_FLIGHTS, FST_COLUMN_COUNT,
+                          table->columns, &table->rows, &scene, &table->complete, error);
     if (status == FST_OK)
         status = fst_scene_parse(scene, strlen(scene), path, &table->params, error);
+    free(bytes);
     free(scene);
+    return status;
+}
+
+static fst_status read_csv(const char *path, fst_table *table, fst_error *error)
+{
+    fst_text text;
+    fst_status status = fst_text_read(&text, path, SIZE_MAX / 8, error);
+    if (status == FST_OK)
+        status = fst_csv_read(&text, table, error);
+    fst_text_free(&text);
     return status;
 }
 
@@ -211,8 +227,8 @@ static fst_status check_order(const char *path, const fst_table *table, fst_erro
     return FST_OK;
 }
 
-/* The map of the scene, where it was or beside the trajectory.  Most of what is made of a trajectory needs
- * none: that it is not found is told by what does. */
+/* The map of the scene, where it was or beside the trajectory.  Most uses of a trajectory need
+ * no map; one that does says that it was not found. */
 static void find_map(const char *path, fst_table *table)
 {
     fst_params beside = table->params;
@@ -230,29 +246,18 @@ static void find_map(const char *path, fst_table *table)
 fst_status fst_trajectory_read(const char *path, fst_table *table, fst_error *error)
 {
     *table = (fst_table){.params = fst_default_params()};
-    int descriptor;
-    fst_status status = fst_open_regular(path, &descriptor, error);
+    int is_hdf5 = 0;
+    fst_status status = look_for_hdf5(path, &is_hdf5, error);
     if (status != FST_OK)
         return status;
-    int reason = 0;
-    FILE *in = fst_regular_stream(descriptor, &reason);
     table->columns = calloc(FST_COLUMN_COUNT, sizeof *table->columns);
-    if (!in || !table->columns)
-        status = fst_fail(error, FST_NO_MEMORY, path, "out of memory");
-    else if (is_hdf5(in))
-        status = read_hdf5(path, table, error);
-    else
-        status = fst_csv_read(in, path, table, error);
+    if (!table->columns)
+        return fst_fail(error, FST_NO_MEMORY, path, "out of memory");
+    status = is_hdf5 ? read_hdf5(path, table, error) : read_csv(path, table, error);
     if (status == FST_OK)
         status = check_numbers(path, table, error);
     if (status == FST_OK)
         status = check_order(path, table, error);
-    if (in)
-        (void)fclose(in);
-    (void)close(descriptor);
-    /* A disk that cannot be read says nothing about the file. */
-    if (reason)
-        status = fst_fail(error, FST_IO, path, "reading this file failed: %s", strerror(reason));
     if (status == FST_OK)
         find_map(path, table);
     else

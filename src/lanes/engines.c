@@ -10,9 +10,7 @@ static int processor_has(int width)
         return 0;
     return width == 4 || (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"));
 }
-#endif
 
-#ifdef FST_HAVE_LANES
 typedef struct engines {
     const fst_lane_engine *usual, *dry;
     fst_arithmetic arithmetic;

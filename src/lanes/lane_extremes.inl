@@ -22,10 +22,13 @@ static void set_aside(const void *memory, int lane, int record, void *to_memory,
     const batch *b = memory;
     waiting *to = to_memory;
     const FN(bead_step) *from = &b->step;
-    move_coefficients(&to->step.context.coefficients, place, &from->context.coefficients, lane);
+    move_world(FST_WORLD(&to->step), place, FST_WORLD(from), lane);
+#if KNOWS_DRY
+    move_modes(FST_MODES(&to->step), place, FST_MODES(from), lane);
+#endif
     to->step.h[place] = from->h[lane];
     to->step.omega[place] = from->omega[lane];
-    for (int i = 0; i < FST_STATE_SIZE; ++i) {
+    for (int i = 0; i < BEAD_NUMBERS; ++i) {
         to->step.y[i][place] = from->y[i][lane];
         to->step.end[i][place] = from->end[i][lane];
         for (int n = 0; n < FST_PATH_PLACES; ++n)
@@ -40,14 +43,15 @@ static void set_aside(const void *memory, int lane, int record, void *to_memory,
 /* Sign times the quantity in each place at the fraction x of its step. */
 static __attribute__((noinline)) REAL look(const waiting *s, REAL x)
 {
-    REAL state[FST_STATE_SIZE];
+    REAL state[BEAD_NUMBERS];
     FN(pull) p;
     FN(seen) seen;
-    const FN(coefficients) *c = &s->step.context.coefficients;
-    FN(bead_evaluate_dense)(FST_STATE_SIZE, &s->step.dense[0][0], FST_STATE_SIZE, x, state);
+    const FN(world) *c = FST_WORLD(&s->step);
+    const FN(modes) *m = FST_MODES(&s->step);
+    FN(bead_evaluate_dense)(BEAD_NUMBERS, &s->step.dense[0][0], FST_DENSE_ROW(&s->step), x, state);
     (void)FN(renormalise)(state);
-    FN(magnetic_pull)(c, state, &p);
-    FN(see)(c, s->step.omega, state, &p, &seen);
+    FN(magnetic_pull)(c, m, state, &p);
+    FN(see)(c, m, s->step.omega, state, &p, &seen);
     return SUM_5(s->weight[FST_TRACK_R], seen.r, s->weight[FST_TRACK_B], seen.b_norm, s->weight[FST_TRACK_GAP],
                  seen.gap2, s->weight[FST_TRACK_SLIP], seen.slip2, s->weight[FST_TRACK_LOAD], seen.load);
 }

@@ -20,7 +20,7 @@ static void see_start(batch *b, unsigned accepted, unsigned before_window)
     q->integrands[0][FST_Q_B2] = fst_wide_select(renew, R(0.0), q->integrands[0][FST_Q_B2]);
 }
 
-/* What a record must be beaten by: in the fast form by what counts, 1e-9 of it (and, for the squares of an
+/* What a record must be beaten by: in the fast form by 1e-9 of it (and, for the squares of an
  * angle and of a slip, those of 1e-8), so that a bead at rest is not looked at for its rounding errors. */
 static REAL to_beat(REAL record)
 {

@@ -7,7 +7,6 @@
 #ifndef FST_LANES_LANES_H
 #define FST_LANES_LANES_H
 
-#include "lanes/splitting.h"
 #include "lanes/tangents.h"
 #include "observe/quadrature.h"
 #include "ode/flow.h"
@@ -110,7 +109,6 @@ typedef struct fst_lane_engine {
 
     /* Of the same width and form; the engines of dry contacts have none. */
     fst_tangent_engine tangents;
-    fst_splitting_engine splitting;
 } fst_lane_engine;
 
 /* The engine of a form of arithmetic and a width (0: the widest of that form), or NULL where this processor or

@@ -48,10 +48,16 @@
  *
  * Once such a step has passed, the flow enters the next mode, and the lane goes on from there (reload()).
  *
- * The including file brings base/wide.h and defines ENGINE (the table's symbol), ENGINE_NAME and ENGINE_FUSED.
+ * The including file defines ENGINE (the table's symbol), FST_LANES, and which of FST_FUSED and FST_DRY_LANES
+ * it is.
  */
+#include "lanes/engines.h"
+
+#ifdef FST_HAVE_LANES
 #include <stddef.h>
 #include <string.h>
+
+#include "base/wide.h"
 
 #include "base/twofold.inl"
 #include "model/bodies.inl"
@@ -61,14 +67,10 @@
 #if KNOWS_DRY
 #include "ode/paced.inl"
 #else
-#include "ode/splitting.inl"
 #include "ode/tangent_step.inl"
 #endif
 #include "observe/integrals.inl"
 #include "observe/peaks.inl"
-#if !KNOWS_DRY
-#include "observe/weighted.inl"
-#endif
 
 typedef struct batch {
     FN(bead_step) step;
@@ -120,7 +122,7 @@ static void view(void *memory, fst_lane_view *v)
 
 /* ------------------------------------------------------------------ in and out */
 
-#include "lanes/lane_coefficients.inl"
+#include "lanes/lane_world.inl"
 
 static void load_pull(FN(pull) * to, int lane, const fst_flow *flow)
 {
@@ -133,7 +135,8 @@ static void load_pull(FN(pull) * to, int lane, const fst_flow *flow)
 #ifdef FIELD_KEEPS_GRADIENT
     double b[3];
     fst_gradient_double g;
-    fst_field_double(&flow->step.context.coefficients, flow->step.y[FST_X], flow->step.y[FST_Y], b, &g);
+    const fst_world_double *c = fst_flow_world(flow);
+    fst_field_double(c, flow->step.y[FST_X], flow->step.y[FST_Y], c->height, b, &g);
     to->gradient.xx[lane] = g.xx;
     to->gradient.yy[lane] = g.yy;
     to->gradient.xy[lane] = g.xy;
@@ -160,7 +163,6 @@ static void load_clock(batch *b, int lane, const fst_flow *flow, double t_limit)
     b->control.proposal[lane] = flow->control.proposal;
     b->control.greatest[lane] = flow->control.greatest;
     b->control.root[lane] = flow->control.root;
-    b->control.damped[lane] = flow->control.damped;
     b->norm_drift[lane] = flow->norm_drift;
     b->accepted[lane] = (double)flow->accepted;
     b->rejected[lane] = (double)flow->rejected;
@@ -174,17 +176,17 @@ static void plan(batch *b, fst_wide_mask mask);
 static void load_motion(batch *b, int lane, const fst_flow *flow, double t_limit)
 {
     const fst_bead_step_double *from = &flow->step;
-    load_coefficients(&b->step.context.coefficients, lane, &from->context.coefficients);
+    load_world(FST_WORLD(&b->step), lane, FST_WORLD(from));
+#if KNOWS_DRY
+    load_modes(FST_MODES(&b->step), lane, FST_MODES(from));
+#endif
     load_pull(FST_PATH_PULL(&b->step, FST_PATH_START), lane, flow);
     b->step.omega[lane] = from->omega;
     b->step.ramp[lane] = 0.0;
-    for (int i = 0; i < FST_STATE_SIZE; ++i) {
+    for (int i = 0; i < BEAD_NUMBERS; ++i) {
         b->step.y[i][lane] = FST_PATH_STATE(&b->step, FST_PATH_START)[i][lane] = from->y[i];
         FST_PATH_SLOPE(&b->step, FST_PATH_START)[i][lane] = FST_PATH_SLOPE(from, FST_PATH_START)[i];
     }
-#if KNOWS_DRY
-    FST_PATH_PACE(&b->step, FST_PATH_START)[lane] = FST_PATH_PACE(from, FST_PATH_START);
-#endif
     load_clock(b, lane, flow, t_limit);
     b->known &= ~(1u << lane);
     plan(b, fst_wide_mask_of(1u << lane));
@@ -233,11 +235,11 @@ static void release(void *memory, int lane)
 }
 
 /* A lane as numbers: its share of every REAL of the batch, and its bits of the words.  Where the
- * integers of the coefficients lie there are no REALs; restore() leaves them as load() set them. */
+ * integers of the world lie there are no REALs; restore() leaves them as load() set them. */
 enum {
     LANE_REALS = offsetof(batch, in_use) / sizeof(REAL),
-    FIRST_INTEGERS = offsetof(batch, step.context.coefficients) / sizeof(REAL),
-    AFTER_INTEGERS = offsetof(batch, step.context.coefficients.eps) / sizeof(REAL)
+    FIRST_INTEGERS = offsetof(batch, FST_WORLD_OF_STEP(step)) / sizeof(REAL),
+    AFTER_INTEGERS = offsetof(batch, FST_WORLD_OF_STEP(step).eps) / sizeof(REAL)
 };
 
 static void save(const void *memory, int lane, double *numbers)
@@ -281,30 +283,26 @@ static void extract_clock(const void *memory, int lane, fst_flow *flow)
     flow->accepted = accepted;
     flow->rejected = rejected;
     flow->has_step = accepted > 0;
-    flow->has_dense = flow->contact.has_clock = 0;
+    flow->has_dense = 0;
 }
 
 static void extract(const void *memory, int lane, fst_bead_step_double *to)
 {
     const FN(bead_step) *from = &((const batch *)memory)->step;
-    for (int i = 0; i < FST_STATE_SIZE; ++i) {
+    for (int i = 0; i < BEAD_NUMBERS; ++i) {
         to->y[i] = from->y[i][lane];
         to->end[i] = from->end[i][lane];
     }
     for (int n = 0; n < FST_PATH_PLACES; ++n)
-        for (int i = 0; i < FST_STATE_SIZE; ++i)
+        for (int i = 0; i < BEAD_NUMBERS; ++i)
             FST_PATH_SLOPE(to, n)[i] = FST_PATH_SLOPE(from, n)[i][lane];
-#if KNOWS_DRY
-    for (int n = 0; n < FST_PATH_PLACES; ++n)
-        FST_PATH_PACE(to, n) = FST_PATH_PACE(from, n)[lane];
-#endif
 }
 
 static void extract_path(const void *memory, int lane, fst_bead_step_double *to)
 {
     const FN(bead_step) *from = &((const batch *)memory)->step;
     for (int n = 0; n < FST_PATH_PLACES; ++n) {
-        for (int i = 0; i < FST_STATE_SIZE; ++i)
+        for (int i = 0; i < BEAD_NUMBERS; ++i)
             FST_PATH_STATE(to, n)[i] = FST_PATH_STATE(from, n)[i][lane];
         extract_pull(FST_PATH_PULL(from, n), lane, FST_PATH_PULL(to, n));
     }
@@ -329,23 +327,23 @@ static void set_increments(void *memory, int lane, const double *increments)
 
 /* Whether steps measure their own time, so that no size can be chosen to land: the end of the way is found in
  * the step that would pass it. */
-static int is_paced(const batch *b)
+static int own_time(const batch *b)
 {
-    (void)b; /* of lanes for other contacts none is */
-    return HAS(b->step.context.coefficients.kinds, paced);
+    (void)b; /* of lanes for other contacts none does */
+    return HAS(FST_WORLD(&b->step)->kinds, modes);
 }
 
 static void plan(batch *b, fst_wide_mask mask)
 {
     const FN(twofold) limit = {b->t_limit, R(0.0)};
-    const REAL rest = is_paced(b) ? R(INFINITY) : FN(twofold_difference)(limit, b->t);
+    const REAL rest = own_time(b) ? R(INFINITY) : FN(twofold_difference)(limit, b->t);
     FN(plan_step)(&b->control, mask, rest);
 }
 
 static void pass_time(batch *b, fst_wide_mask mask)
 {
     const FN(twofold) end =
-        is_paced(b) ? FN(twofold_add)(b->t, b->passes) : FN(step_end)(&b->control, b->t, b->t_limit);
+        own_time(b) ? FN(twofold_add)(b->t, b->passes) : FN(step_end)(&b->control, b->t, b->t_limit);
     b->accepted = fst_wide_add_where(mask, b->accepted, R(1.0));
     b->t_start.high = fst_wide_select(mask, b->t.high, b->t_start.high);
     b->t_start.low = fst_wide_select(mask, b->t.low, b->t_start.low);
@@ -377,18 +375,19 @@ static void pass(void *memory, unsigned lanes)
 static unsigned may_end_mode(const batch *b)
 {
     const FN(bead_step) *s = &b->step;
-    const FN(coefficients) *c = &s->context.coefficients;
-    const FN(coulomb) *law = &c->law.coulomb;
+    const FN(world) *c = FST_WORLD(s);
+    const FN(modes) *m = FST_MODES(s);
     const FN(twofold) limit = {b->t_limit, R(0.0)};
     const REAL rest = FN(twofold_difference)(limit, b->t);
-    const unsigned sticking = fst_wide_lanes_of(FN(coulomb_sticks)(law)) & b->in_use;
-    unsigned may = fst_wide_lanes_of(FN(coulomb_begins)(law)) |
+    const unsigned sticking = fst_wide_lanes_of(FN(is_mode)(m->contact, FST_MODE_STICK)) & b->in_use;
+    unsigned may = fst_wide_lanes_of(FN(is_mode)(m->contact, FST_MODE_ONSET)) |
                    fst_wide_lanes_of(WIDE_LESS_EQUAL(rest, b->passes * R(1.0 + 1e-12)));
-    may |= fst_wide_lanes_of(FN(coulomb_slips)(law)) & fst_wide_lanes_of(FN(slip_is_over)(s, b->tolerance));
+    may |= fst_wide_lanes_of(FN(is_moving)(m->contact)) & fst_wide_lanes_of(FN(slip_is_over)(s, b->tolerance));
     if (sticking) { /* as fst_flow_first_negative() has it */
         REAL least = R(INFINITY), greatest = R(-INFINITY);
         for (int n = 0; n < FST_PATH_PLACES; ++n) {
-            const REAL left = FN(grip_left)(c, FST_PATH_STATE(s, n), FST_PATH_PULL(s, n));
+            const FN(contact) at = FN(contact_of)(c, m, FST_PATH_STATE(s, n), FST_PATH_PULL(s, n));
+            const REAL left = FN(static_grip)(c, &at);
             least = -REAL_MAX(-left, -least);
             greatest = REAL_MAX(left, greatest);
         }
@@ -406,7 +405,7 @@ static fst_lane_tries try_steps(void *memory)
     FN(bead_try_step)(s);
     REAL error = FN(bead_step_error)(s, b->tolerance, b->absolute_tolerance);
 #if KNOWS_DRY
-    if (is_paced(b))
+    if (own_time(b))
         error = FN(paced_error)(s, error);
 #endif
     const REAL factor = FN(step_factor)(error);
@@ -418,13 +417,13 @@ static fst_lane_tries try_steps(void *memory)
 #ifdef FST_FUSED
     accept(b, accepted, FN(damped_factor)(&b->control, accepted, factor));
 #else
-    accept(b, accepted, FN(factor_in_use)(&b->control, accepted, factor));
+    accept(b, accepted, factor);
 #endif
     tries.accepted |= tries.anew;
     b->norm_drift = fst_wide_add_where(fst_wide_mask_of(tries.accepted), b->norm_drift, b->drift);
     b->anew = 0;
 #if KNOWS_DRY
-    if (is_paced(b)) {
+    if (own_time(b)) {
         b->passes = FN(paced_time)(s);
         tries.contact = tries.accepted & ~tries.anew & may_end_mode(b);
         tries.accepted &= ~tries.contact;
@@ -472,7 +471,7 @@ static unsigned may_end(const batch *b)
     const REAL edge = b->plate_radius;
     REAL least = R(INFINITY), greatest = R(-INFINITY), farthest2 = R(0.0);
     for (int n = 0; n < FST_PATH_PLACES; ++n) {
-        const REAL load = FN(load)(&s->context.coefficients, FST_PATH_PULL(s, n)->force);
+        const REAL load = FN(load)(FST_WORLD(s), FST_PATH_PULL(s, n)->force);
         const REAL *y = FST_PATH_STATE(s, n);
         least = -REAL_MAX(-load, -least);
         greatest = REAL_MAX(load, greatest);
@@ -511,7 +510,7 @@ static fst_lane_events watch(void *memory, unsigned accepted, unsigned observed,
     const unsigned ending = may_end(b), landed = fst_wide_lanes_of(WIDE_LESS_EQUAL(b->t_limit, b->t.high));
     const unsigned at_mark = fst_wide_lanes_of(WIDE_LESS_EQUAL(b->next_mark, b->t.high + R(1e-9) * b->step.h));
     const unsigned crossing = fst_wide_lanes_of(WIDE_LESS_EQUAL(y[FST_X] * end[FST_X], zero)) & in_window;
-    unsigned close = ending | landed | crossing | (is_paced(b) ? at_mark : 0);
+    unsigned close = ending | landed | crossing | (own_time(b) ? at_mark : 0);
     b->turns[0] = b->turns_before[0];
     b->turns[1] = b->turns_before[1];
     close |= wind(&b->turns[0], y[FST_X], y[FST_Y], end[FST_X], end[FST_Y]);
@@ -549,15 +548,10 @@ static fst_lane_events watch(void *memory, unsigned accepted, unsigned observed,
 #if !KNOWS_DRY
 #define TANGENT_WIDTH FST_LANES
 #include "lanes/tangents.inl"
-
-#define SPLITTING_WIDTH FST_LANES
-#include "lanes/splitting_lanes.inl"
 #endif
 
 const fst_lane_engine ENGINE = {
-    .name = ENGINE_NAME,
     .width = FST_LANES,
-    .fused = ENGINE_FUSED,
     .bytes = sizeof(batch),
     .view = view,
     .load = load,
@@ -580,11 +574,15 @@ const fst_lane_engine ENGINE = {
     .reload = reload,
 #else
     .tangents = TANGENT_ENGINE,
-    .splitting = SPLITTING_ENGINE,
 #endif
 #ifdef FST_FUSED
+    .name = FST_LANES == 8 ? "avx512" : "avx2",
+    .fused = 1,
     .waiting_bytes = sizeof(waiting),
     .set_aside = set_aside,
     .locate = locate,
+#else
+    .name = "portable",
 #endif
 };
+#endif

@@ -1,13 +1,5 @@
 /* lanes_avx2.c - four lanes of AVX2 with fused operations */
-#include "lanes/engines.h"
-
-#ifdef FST_HAVE_LANES
+#define ENGINE fst_lanes_avx2
 #define FST_LANES 4
 #define FST_FUSED
-#include "base/wide.h"
-
-#define ENGINE fst_lanes_avx2
-#define ENGINE_NAME "avx2"
-#define ENGINE_FUSED 1
 #include "lanes/lanes.inl"
-#endif

@@ -1,13 +1,5 @@
 /* lanes_avx512.c - eight lanes of AVX-512 with fused operations */
-#include "lanes/engines.h"
-
-#ifdef FST_HAVE_LANES
+#define ENGINE fst_lanes_avx512
 #define FST_LANES 8
 #define FST_FUSED
-#include "base/wide.h"
-
-#define ENGINE fst_lanes_avx512
-#define ENGINE_NAME "avx512"
-#define ENGINE_FUSED 1
 #include "lanes/lanes.inl"
-#endif

@@ -1,13 +1,4 @@
 /* lanes_portable4.c - four lanes of AVX2 in the portable form */
-#include "lanes/engines.h"
-
-#ifdef FST_HAVE_LANES
-#define FST_LANES 4
-
-#include "base/wide.h"
-
 #define ENGINE fst_lanes_portable4
-#define ENGINE_NAME "portable"
-#define ENGINE_FUSED 0
+#define FST_LANES 4
 #include "lanes/lanes.inl"
-#endif

@@ -15,8 +15,8 @@ typedef struct fst_tangent_engine {
     size_t bytes; /* to be aligned to 64 and zeroed */
 
     /* Put a bead and a vector into a lane; their errors count in units of the tolerances there. */
-    void (*load)(void *memory, int lane, const fst_coefficients_double *coefficients,
-                 const double y[FST_TANGENT_DIM], double rtol, const double atol[FST_TANGENT_DIM]);
+    void (*load)(void *memory, int lane, const fst_world_double *world, const double y[FST_TANGENT_DIM],
+                 double rtol, const double atol[FST_TANGENT_DIM]);
 
     /* The present states and vectors, and their derivatives as of the last evaluate(). */
     void (*view)(void *memory, double **y, const double **slope);

@@ -1,6 +1,6 @@
 /* tangents.inl - the engine of beads with a tangent vector, over REAL.
  *
- * The including file brings the bodies of tangent_step.inl and load_coefficients(), and defines TANGENT_WIDTH.
+ * The including file brings the bodies of tangent_step.inl and load_world(), and defines TANGENT_WIDTH.
  */
 typedef struct tangents {
     FN(tangent_step) step;
@@ -12,12 +12,12 @@ static double *numbers(void *reals)
     return reals;
 }
 
-static void load_tangent(void *memory, int lane, const fst_coefficients_double *coefficients,
-                         const double y[FST_TANGENT_DIM], double rtol, const double atol[FST_TANGENT_DIM])
+static void load_tangent(void *memory, int lane, const fst_world_double *world, const double y[FST_TANGENT_DIM],
+                         double rtol, const double atol[FST_TANGENT_DIM])
 {
     tangents *t = memory;
-    load_coefficients(&t->step.context, lane, coefficients);
-    numbers(&t->step.omega)[lane] = coefficients->omega;
+    load_world(TANGENT_WORLD(&t->step), lane, world);
+    numbers(&t->step.omega)[lane] = world->omega;
     numbers(&t->rtol)[lane] = rtol;
     for (int i = 0; i < FST_TANGENT_DIM; ++i) {
         numbers(t->step.y)[i * TANGENT_WIDTH + lane] = y[i];

@@ -9,7 +9,7 @@
 
 #define TANGENT_WIDTH 1
 
-static void load_coefficients(fst_coefficients_double *to, int lane, const fst_coefficients_double *from)
+static void load_world(fst_world_double *to, int lane, const fst_world_double *from)
 {
     (void)lane;
     *to = *from;

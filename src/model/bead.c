@@ -1,15 +1,16 @@
-/* bead.c - the bead's mass and magnetic moment, of whatever tells them: directly, or by density and remanence.
+/* bead.c - the bead's mass and magnetic moment, as given, or from density and remanence.
  */
 #include <math.h>
 
 #include "base/constants.h"
+#include "model/forms.h"
 #include "model/kinds.h"
 #include "model/params.h"
 
 /* The remanence in T of a bead beside a real magnet of which nothing is said: neodymium, as sold. */
 static const double USUAL_REMANENCE = 1.2;
 
-/* R in m: of a scaled bead, model.eps, R/l tells it. */
+/* R in m: of a scaled bead it follows from model.eps, R/l. */
 static double radius_of(const fst_params *p)
 {
     return isnan(p->model_eps) ? p->bead_radius : p->model_eps * p->magnet_half_length;
@@ -21,8 +22,10 @@ static double volume_of(const fst_params *p)
     return 4.0 / 3.0 * FST_PI * (radius * radius * radius);
 }
 
-double fst_bead_mass(const fst_params *p)
+double fst_bead_mass(const fst_params *params)
 {
+    fst_params room;
+    const fst_params *p = fst_params_settled(params, &room);
     return isnan(p->bead_density) ? p->bead_mass : p->bead_density * volume_of(p);
 }
 
@@ -48,8 +51,10 @@ double fst_field_unit(const fst_params *p)
     return isnan(p->magnet_b0) && fst_magnet_in_tesla(p) ? FST_PARTS_FIELD_UNIT : p->magnet_b0;
 }
 
-double fst_bead_moment(const fst_params *p)
+double fst_bead_moment(const fst_params *params)
 {
+    fst_params room;
+    const fst_params *p = fst_params_settled(params, &room);
     const double given = fst_given_moment(p);
     if (p->bead_material == FST_MATERIAL_PARAMAGNETIC)
         return 0.0;

@@ -1,8 +1,7 @@
 /* field_map.c - making splines of the samples of a measured field.
  *
  * Along one axis, a spline of degree 7 through n samples has n + 6 coefficients: those of the nodes from -3 to
- * n
- * + 2.  At node j it has the value
+ * n + 2.  At node j it has the value
  *
  *     (c[j-3] + 120 c[j-2] + 1191 c[j-1] + 2416 c[j] + 1191 c[j+1] + 120 c[j+2] + c[j+3])/5040
  *
@@ -40,6 +39,9 @@ static const char PLACE[] = "fst_field_map_new";
 
 enum { REACH = 8, BAND_ROWS = 3 * REACH + 1 };
 
+/* Of a spline at the nodes within its reach, times 5040. */
+static const double AT_NODES[7] = {1, 120, 1191, 2416, 1191, 120, 1};
+
 /* Element (row, column) is at values[column * BAND_ROWS + 2 * REACH + row - column]; exchanging rows lets the
  * upper triangle grow to twice the reach. */
 typedef struct band {
@@ -60,11 +62,10 @@ static int least(int a, int b)
 
 static void fill_band(band *b, int samples)
 {
-    static const double at_nodes[7] = {1, 120, 1191, 2416, 1191, 120, 1};
     static const double difference[9] = {1, -8, 28, -56, 70, -56, 28, -8, 1};
     for (int j = 0; j < samples; ++j)
         for (int k = 0; k < 7; ++k)
-            *element(b, j + FST_SPLINE_BEYOND, j + k) = at_nodes[k] / 5040.0;
+            *element(b, j + FST_SPLINE_BEYOND, j + k) = AT_NODES[k] / 5040.0;
     for (int end = 0; end < 2; ++end)
         for (int i = 0; i < 3; ++i)
             for (int k = 0; k < 9; ++k)
@@ -156,13 +157,12 @@ static fst_status fit_plane(const band bands[2], const fst_map_plane *plane, dou
     return status;
 }
 
-/* ------------------------------------------------------------------ what can be told of a map */
+/* ------------------------------------------------------------------ what is known of a map */
 
 /* The derivatives of the component c by x and y at a sample. */
 static void slopes_at(const fst_map_plane *plane, int i, int j, int c, double slopes[2])
 {
-    static const double value[7] = {1, 120, 1191, 2416, 1191, 120, 1},
-                        slope[7] = {-1, -56, -245, 0, 245, 56, 1};
+    static const double slope[7] = {-1, -56, -245, 0, 245, 56, 1};
     slopes[0] = slopes[1] = 0.0;
     for (int l = 0; l < 7; ++l)
         for (int k = 0; k < 7; ++k) {
@@ -170,8 +170,8 @@ static void slopes_at(const fst_map_plane *plane, int i, int j, int c, double sl
                 plane->coefficients[((size_t)(j + l) * (size_t)plane->stride + (size_t)(i + k)) *
                                         FST_MAP_COMPONENTS +
                                     (size_t)c];
-            slopes[0] += value[l] / 5040.0 * (slope[k] / 720.0) * here;
-            slopes[1] += value[k] / 5040.0 * (slope[l] / 720.0) * here;
+            slopes[0] += AT_NODES[l] / 5040.0 * (slope[k] / 720.0) * here;
+            slopes[1] += AT_NODES[k] / 5040.0 * (slope[l] / 720.0) * here;
         }
     slopes[0] /= plane->spacing[0];
     slopes[1] /= plane->spacing[1];
@@ -198,11 +198,6 @@ fst_field_map_facts fst_field_map_describe(const fst_field_map *map)
     return map->facts;
 }
 
-double fst_map_radius(const fst_field_map *map)
-{
-    return map->facts.radius;
-}
-
 static double radius_of(const fst_field_samples *s)
 {
     double radius = INFINITY;
@@ -226,16 +221,16 @@ static fst_status check_samples(const fst_field_samples *s, fst_error *error)
     static const char axes[] = "xyz";
     double all = 1.0;
     for (int axis = 0; axis < 3; ++axis) {
-        const int needed = axis < 2 ? FST_SPLINE_NODES : 1;
+        const int needed = axis < 2 ? FST_SPLINE_NODES : 1, spaced = axis < 2 || s->count[2] > 1;
         if (s->count[axis] < needed)
             return fst_fail(error, FST_BAD_INPUT, PLACE,
                             "the map has %d sample%s along %c: splines of degree 7 need at least %d",
                             s->count[axis], s->count[axis] == 1 ? "" : "s", axes[axis], needed);
         all *= s->count[axis];
-        if (!isfinite(s->first[axis]) && (axis < 2 || s->count[2] > 1))
+        if (spaced && !isfinite(s->first[axis]))
             return fst_fail(error, FST_BAD_INPUT, PLACE, "the place of the map along %c is %g", axes[axis],
                             s->first[axis]);
-        if ((axis < 2 || s->count[2] > 1) && !(s->spacing[axis] > 0 && isfinite(s->spacing[axis])))
+        if (spaced && !(s->spacing[axis] > 0 && isfinite(s->spacing[axis])))
             return fst_fail(error, FST_BAD_INPUT, PLACE,
                             "the spacing of the map along %c is %g m, not positive", axes[axis],
                             s->spacing[axis]);
@@ -245,15 +240,14 @@ static fst_status check_samples(const fst_field_samples *s, fst_error *error)
                         MOST_SAMPLES);
     for (size_t i = 0; i < 3 * (size_t)all; ++i)
         if (!(fabs(s->b[i]) <= STRONGEST))
-            return fst_fail(
-                error, FST_BAD_INPUT, PLACE,
-                "the component %c of sample %zu of the map is %g T: a number of at most %g is expected",
-                axes[i % 3], i / 3 + 1, s->b[i], STRONGEST);
+            return fst_fail(error, FST_BAD_INPUT, PLACE,
+                            "the component %c of sample %zu of the map is %g T: a number of at most %g is "
+                            "expected",
+                            axes[i % 3], i / 3 + 1, s->b[i], STRONGEST);
     if (!(radius_of(s) > 0))
-        return fst_fail(
-            error, FST_BAD_INPUT, PLACE,
-            "the map does not surround the axis of rotation x = y = 0: the places of a map are in the "
-            "magnet's frame, whose origin is that axis");
+        return fst_fail(error, FST_BAD_INPUT, PLACE,
+                        "the map does not surround the axis of rotation x = y = 0: the places of a map are in "
+                        "the magnet's frame, whose origin is that axis");
     return FST_OK;
 }
 

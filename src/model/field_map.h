@@ -23,16 +23,13 @@ typedef struct fst_map_plane {
     int cells[2];               /* along x and y */
     double first[2];            /* m: where the first sample is */
     double spacing[2];          /* m */
-    double height;              /* m over the magnet's reference plane; NAN: not told */
+    double height;              /* m over the magnet's reference plane; NAN: not known */
 } fst_map_plane;
 
-/* The plane at a height, or NULL where there is none.  A map whose height is not told serves every height. */
+/* The plane at a height, or NULL where there is none.  A map whose height is not known serves every height. */
 const fst_map_plane *fst_map_plane_at(const fst_field_map *map, double height);
 
-/* The nearest plane's height, for messages; NAN: not told. */
+/* The nearest plane's height, for messages; NAN: not known. */
 double fst_map_nearest_height(const fst_field_map *map, double height);
-
-/* The radius in m of the greatest disc about the axis that the samples cover; <= 0: not even the axis. */
-double fst_map_radius(const fst_field_map *map);
 
 #endif

@@ -8,12 +8,6 @@
 
 #include "model/field_map.h"
 
-/* The modes of dry friction (contact/coulomb.inl). */
-enum { FST_MODE_SLIP, FST_MODE_STICK, FST_MODE_ONSET, FST_MODE_FLIGHT, FST_MODES };
-
-/* And of rolling resistance (contact/resistance.inl). */
-enum { FST_ROLL_ROLLS, FST_ROLL_RESTS, FST_ROLL_STARTS, FST_ROLL_MODES };
-
 typedef struct fst_kinds {
     int source;               /* row of FST_SOURCES (festoon/physics.def) */
     int pieces;               /* that the source is made of: lines, parts */
@@ -24,7 +18,8 @@ typedef struct fst_kinds {
     int patch;                /* FST_PATCH_*: of a contact with modes, its shape */
     int flies;                /* a bead on which the load vanishes leaves the plate and comes down again */
     int resists;              /* the plate resists rolling, in modes of its own */
-    int paced;                /* the law has modes, and while the bead slips a step measures its own time */
+    int modes;                /* the law has modes (contact/modes.inl) */
+    int rolls;                /* the law is that of a bead that never slips */
     unsigned char part[FST_PARTS_MAX];        /* fst_part_kind of each part of the magnet */
     unsigned char part_turned[FST_PARTS_MAX]; /* whether its axes are not those of the magnet */
     const fst_map_plane *plane; /* of a measured map: the plane in which the bead's centre moves */
@@ -52,8 +47,7 @@ static inline void fst_count_pieces(fst_kinds *kinds, const fst_params *p, const
  * dry friction that nothing overcomes, because it has modes. */
 static inline int fst_law_in_effect(const fst_params *p, fst_friction_law law)
 {
-    const int acts = p->friction_mu > 0 || p->friction_mu_static > 0 || p->friction_contact_rate > 0 ||
-                     p->friction_rolling_resistance > 0;
+    const int acts = p->friction_mu > 0 || p->friction_mu_static > 0 || p->friction_rolling_resistance > 0;
     if (law == FST_FRICTION_ROLLING && p->friction_rolling_resistance > 0)
         return FST_FRICTION_COULOMB;
     return law == FST_FRICTION_COULOMB && !acts ? FST_FRICTION_NONE : (int)law;
@@ -64,7 +58,7 @@ static inline int fst_kinds_equal(const fst_kinds *a, const fst_kinds *b)
     return a->source == b->source && a->pieces == b->pieces && a->contact == b->contact &&
            a->magnetisable == b->magnetisable && a->gyroscopic_term_lost == b->gyroscopic_term_lost &&
            a->dry == b->dry && a->patch == b->patch && a->flies == b->flies && a->resists == b->resists &&
-           a->paced == b->paced && memcmp(a->part, b->part, sizeof a->part) == 0 &&
+           a->modes == b->modes && a->rolls == b->rolls && memcmp(a->part, b->part, sizeof a->part) == 0 &&
            memcmp(a->part_turned, b->part_turned, sizeof a->part_turned) == 0 && a->plane == b->plane;
 }
 

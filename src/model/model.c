@@ -1,5 +1,5 @@
 /* model.c - from parameters in SI to the scaled model, and the model's public face. */
-#include "model/model.h"
+#include "model/modes.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -33,14 +33,12 @@ static void set_geometry(const fst_params *p, fst_groups *g)
     const double l = p->magnet_half_length;
     g->length_unit = l;
     g->eps = isnan(p->model_eps) ? p->bead_radius / l : p->model_eps;
+    g->inertia = p->bead_inertia;
     g->h = isnan(p->model_h) ? (p->magnet_depth + p->bead_radius) / l : p->model_h;
     g->lines = p->magnet_lines;
+    g->lambda = isnan(p->model_lambda) ? p->magnet_width / ((p->magnet_lines - 1) * l) : p->model_lambda;
     if (p->magnet_lines == 1)
         g->lambda = 0.0;
-    else if (!isnan(p->model_lambda))
-        g->lambda = p->model_lambda;
-    else
-        g->lambda = p->magnet_width / ((p->magnet_lines - 1) * l);
 }
 
 /* The distance from the axis, in l, over which the field of a magnet of parts varies at a height: as far as the
@@ -60,13 +58,12 @@ static double magnet_reach(const fst_params *p, double height)
 }
 
 /* What the magnet's image lacks at a place, and the strength there.  Both only grow. */
-static void compare_with_image(const fst_coefficients_double *c, double x, double y, double *most,
-                               double *strongest)
+static void compare_with_image(const fst_world_double *c, double x, double y, double *most, double *strongest)
 {
     const double u[3] = {0.0};
     double here[3], there[3], unused[3];
-    fst_field_along_double(c, x, y, u, here, unused);
-    fst_field_along_double(c, -x, -y, u, there, unused);
+    fst_field_along_double(c, x, y, c->height, u, here, unused);
+    fst_field_along_double(c, -x, -y, c->height, u, there, unused);
     *strongest = fmax(*strongest, fabs(here[0]) + fabs(here[1]) + fabs(here[2]));
     for (int k = 0; k < 3; ++k)
         *most = fmax(*most, fabs(there[k] - (k == 2 ? -here[k] : here[k])));
@@ -76,7 +73,7 @@ static void compare_with_image(const fst_coefficients_double *c, double x, doubl
  * maps onto each other, from the middle of the magnet to its surroundings (all within 1.7 scale), and beside
  * each part, where a small one is felt that the rest hides from afar.  Where the whole field is weak beside
  * that of other places, rounding decides: a difference counts against the strongest field that was seen. */
-static int field_has_s2(const fst_params *p, const fst_coefficients_double *c, const fst_groups *g)
+static int field_has_s2(const fst_params *p, const fst_world_double *c, const fst_groups *g)
 {
     static const double places[][2] = {{0.31, 0.17}, {0.83, -0.59}, {-0.44, 1.07}, {1.63, 0.26}};
     enum { PLACES = sizeof places / sizeof *places };
@@ -103,21 +100,20 @@ static fst_status use_map(const fst_params *p, fst_groups *g, fst_error *error)
         return fst_fail(error, FST_BAD_INPUT, "magnet.file", "the map %s has not been read", p->magnet_file);
     const double height = g->h * g->length_unit;
     if (!fst_map_plane_at(p->magnet_map, height))
-        return fst_fail(
-            error, FST_BAD_INPUT, "magnet.file",
-            "the bead's centre moves %.7g mm over the magnet's reference plane, but the map was taken at "
-            "%.7g mm: take one there, or change magnet.depth",
-            1e3 * height, 1e3 * fst_map_nearest_height(p->magnet_map, height));
+        return fst_fail(error, FST_BAD_INPUT, "magnet.file",
+                        "the bead's centre moves %.7g mm over the magnet's reference plane, but the map was "
+                        "taken at %.7g mm: take one there, or change magnet.depth",
+                        1e3 * height, 1e3 * fst_map_nearest_height(p->magnet_map, height));
     if (!isnan(p->impact_restitution) && p->friction_law == FST_FRICTION_COULOMB)
         return fst_fail(error, FST_BAD_INPUT, "impact.restitution",
                         "a bead that flies needs the field above the plate, and the map has one plane: leave "
                         "impact.restitution out");
-    g->map_radius = fst_map_radius(p->magnet_map) / g->length_unit;
+    g->map_radius = fst_field_map_describe(p->magnet_map).radius / g->length_unit;
     g->plate_radius = fmin(g->plate_radius, g->map_radius);
     return FST_OK;
 }
 
-static fst_status make_model(const fst_params *params, double height, fst_model **model, fst_error *error)
+static fst_status make_model(const fst_params *params, double height, fst_model *made, fst_error *error)
 {
     fst_groups g;
     memset(&g, 0, sizeof g);
@@ -143,30 +139,37 @@ static fst_status make_model(const fst_params *params, double height, fst_model 
     const fst_status status = g.shape == FST_MAGNET_GRID ? use_map(params, &g, error) : FST_OK;
     if (status != FST_OK)
         return status;
-    fst_model *made = malloc(sizeof *made);
-    if (!made)
-        return fst_fail(error, FST_NO_MEMORY, "fst_model_new", "out of memory");
-    made->params = *params;
     made->groups = g;
-    made->coefficients = fst_make_coefficients_double(params, &g);
-    made->has_s2 = field_has_s2(params, &made->coefficients, &g);
+    made->world = fst_make_world_double(params, &g);
+    made->params = *params;
+    made->has_s2 = field_has_s2(params, &made->world, &g);
     made->map = g.shape == FST_MAGNET_GRID ? fst_field_map_share(params->magnet_map) : NULL;
-    *model = made;
     return FST_OK;
+}
+
+fst_status fst_model_fill(const fst_params *params, double height, fst_model *model, fst_error *error)
+{
+    fst_params settled = *params;
+    const fst_status status = fst_params_validate(&settled, error);
+    return status == FST_OK ? make_model(&settled, height, model, error) : status;
 }
 
 fst_status fst_model_new(const fst_params *params, fst_model **model, fst_error *error)
 {
-    *model = NULL;
-    const fst_status status = fst_params_validate(params, error);
-    return status == FST_OK ? make_model(params, NAN, model, error) : status;
+    return fst_field_model_new(params, NAN, model, error);
 }
 
 fst_status fst_field_model_new(const fst_params *params, double height, fst_model **model, fst_error *error)
 {
     *model = NULL;
-    const fst_status status = fst_params_validate(params, error);
-    return status == FST_OK ? make_model(params, height, model, error) : status;
+    fst_model *made = malloc(sizeof *made);
+    const fst_status status = made ? fst_model_fill(params, height, made, error)
+                                   : fst_fail(error, FST_NO_MEMORY, "fst_model_new", "out of memory");
+    if (status == FST_OK)
+        *model = made;
+    else
+        free(made);
+    return status;
 }
 
 void fst_model_free(fst_model *model)
@@ -184,7 +187,7 @@ fst_groups fst_model_groups(const fst_model *model)
 /* Whether the samples of a measured field surround a place. */
 static int is_known(const fst_model *model, double x, double y)
 {
-    const fst_map_plane *plane = model->coefficients.kinds.plane;
+    const fst_map_plane *plane = model->world.kinds.plane;
     const double place[2] = {x * model->groups.length_unit, y * model->groups.length_unit};
     for (int axis = 0; plane && axis < 2; ++axis) {
         const double cells = (place[axis] - plane->first[axis]) / plane->spacing[axis];
@@ -202,7 +205,7 @@ void fst_field(const fst_model *model, double x, double y, double b[3], double g
         return;
     }
     fst_gradient_double g;
-    fst_field_double(&model->coefficients, x, y, b, &g);
+    fst_field_double(&model->world, x, y, model->world.height, b, &g);
     const double all[3][3] = {{g.xx, g.xy, g.xz}, {g.yx, g.yy, g.yz}, {g.xz, g.yz, -(g.xx + g.yy)}};
     memcpy(grad, all, sizeof all);
 }
@@ -224,56 +227,34 @@ void fst_field_pull(const fst_model *model, double x, double y, double force[3],
 
 void fst_slip(const fst_model *model, const double state[FST_STATE_SIZE], double slip[2])
 {
-    fst_slip_double(&model->coefficients, state, slip);
-}
-
-/* The coefficients, in the mode of a contact that is in this state: without slip, under a push that static
- * friction takes, it sticks. */
-static fst_coefficients_double in_mode_of(const fst_model *model, const double *state)
-{
-    static const double no_slip = 1e-12;
-    fst_coefficients_double c = model->coefficients;
-    if (!c.kinds.paced)
-        return c;
-    fst_pull_double p;
-    fst_magnetic_pull_double(&c, state, &p);
-    const double sliding[2] = {state[FST_VX] - c.eps * state[FST_WY], state[FST_VY] + c.eps * state[FST_WX]};
-    if (model->groups.friction == FST_FRICTION_ROLLING ||
-        sqrt(sliding[0] * sliding[0] + sliding[1] * sliding[1]) < no_slip)
-        c.law.coulomb.mode = FST_MODE_STICK;
-    fst_find_rest_double(&c, state, &p);
-    c.law.coulomb.mode = FST_MODE_SLIP;
-    const fst_contact_double at = fst_contact_of_double(&c, state, &p);
-    const double slip = sqrt(at.slip[0] * at.slip[0] + at.slip[1] * at.slip[1]);
-    const double push = sqrt(at.push[0] * at.push[0] + at.push[1] * at.push[1]);
-    if (model->groups.friction == FST_FRICTION_ROLLING ||
-        (slip < no_slip && push <= 3.5 * c.law.coulomb.holding * at.load))
-        c.law.coulomb.mode = FST_MODE_STICK;
-    return c;
+    fst_slip_double(&model->world, state, slip);
 }
 
 void fst_rhs(const fst_model *model, const double state[FST_STATE_SIZE], double derivative[FST_STATE_SIZE])
 {
-    const fst_coefficients_double c = in_mode_of(model, state);
+    const fst_world_double *c = &model->world;
+    const fst_motion_double motion = fst_motion_at(c, state, model->params.run_rtol);
     fst_pull_double p;
-    fst_rhs_double(&c, c.omega, state, derivative, &p);
+    fst_rhs_double(c, &motion.modes, c->omega, motion.numbers, derivative, &p);
 }
 
 void fst_jacobian(const fst_model *model, const double state[FST_STATE_SIZE],
                   double jacobian[FST_STATE_SIZE][FST_STATE_SIZE], double by_omega[FST_STATE_SIZE])
 {
-    const fst_coefficients_double c = in_mode_of(model, state);
-    fst_jacobian_double(&c, c.omega, state, jacobian);
+    const fst_world_double *c = &model->world;
+    const fst_motion_double motion = fst_motion_at(c, state, model->params.run_rtol);
+    fst_jacobian_double(c, &motion.modes, c->omega, motion.numbers, jacobian);
     if (by_omega)
         fst_rhs_by_omega_double(state, by_omega);
 }
 
-fst_observation fst_observe_double(const fst_coefficients_double *c, double omega, const double *state)
+fst_observation fst_observe_motion(const fst_world_double *c, const fst_motion_double *motion, double omega)
 {
+    const fst_modes_double *m = &motion->modes;
     fst_pull_double p;
     fst_seen_double o;
-    fst_magnetic_pull_double(c, state, &p);
-    fst_see_double(c, omega, state, &p, &o);
+    fst_magnetic_pull_double(c, m, motion->numbers, &p);
+    fst_see_double(c, m, omega, motion->numbers, &p, &o);
     fst_observation out;
     memset(&out, 0, sizeof out);
     out.r = o.r;
@@ -288,14 +269,14 @@ fst_observation fst_observe_double(const fst_coefficients_double *c, double omeg
     out.slip_norm = sqrt(o.slip2);
     out.spin = o.spin;
     out.load = o.load;
-    out.energy = fst_energy_double(c, state, &p);
+    out.energy = fst_energy_double(c, m, motion->numbers, &p);
     out.friction_power = o.friction_power;
     out.drive_power = o.drive_power;
     out.sticks = o.sticking > 0.5;
     double force[2];
-    const fst_contact_double contact = fst_contact_of_double(c, state, &p);
+    const fst_contact_double contact = fst_contact_of_double(c, m, motion->numbers, &p);
     fst_friction_double(&c->law, &c->kinds, &contact, force);
-    out.friction = sqrt(force[0] * force[0] + force[1] * force[1]);
+    out.friction = fst_norm_2_double(force);
     const double most = c->holding * contact.load;
     out.friction_use = most > 0 ? out.friction / most : 0.0;
     return out;
@@ -309,8 +290,9 @@ double fst_angle_of_gap(double gap2)
 
 fst_observation fst_observe(const fst_model *model, const double state[FST_STATE_SIZE])
 {
-    const fst_coefficients_double c = in_mode_of(model, state);
-    return fst_observe_double(&c, c.omega, state);
+    const fst_world_double *c = &model->world;
+    const fst_motion_double motion = fst_motion_at(c, state, model->params.run_rtol);
+    return fst_observe_motion(c, &motion, c->omega);
 }
 
 void fst_apply_s2(const double state[FST_STATE_SIZE], double image[FST_STATE_SIZE])
@@ -336,24 +318,22 @@ fst_status fst_start_state(const fst_params *params, const fst_model *model, dou
                         g->plate_radius);
     fst_gradient_double gradient;
     double b[3];
-    fst_field_double(&model->coefficients, state[FST_X], state[FST_Y], b, &gradient);
+    fst_field_double(&model->world, state[FST_X], state[FST_Y], model->world.height, b, &gradient);
     const double norm = sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
     if (!(norm > 1e-150))
-        return fst_fail(
-            error, FST_BAD_INPUT, "start.r",
-            "the magnet's field vanishes at the start, so n = B/|B| does not exist there: move start.r "
-            "or start.phi");
+        return fst_fail(error, FST_BAD_INPUT, "start.r",
+                        "the magnet's field vanishes at the start, so n = B/|B| does not exist there: move "
+                        "start.r or start.phi");
     for (int i = 0; i < 3; ++i)
         state[FST_NX + i] = b[i] / norm;
     if (params->start_spin == FST_SPIN_REST)
         return FST_OK;
     const double gap = r - g->eps;
     if (!(fabs(gap) > 1e-9) || r == 0.0)
-        return fst_fail(
-            error, FST_BAD_INPUT, "start.r",
-            "a free-rolling start does not exist at start.r = %g with eps = %g: choose start.r > eps, "
-            "or start.spin = rest",
-            r, g->eps);
+        return fst_fail(error, FST_BAD_INPUT, "start.r",
+                        "a free-rolling start does not exist at start.r = %g with eps = %g: choose start.r > "
+                        "eps, or start.spin = rest",
+                        r, g->eps);
     const double rate = g->omega * r / gap; /* free rolling: alpha' = -eps omega/(r - eps), W = rate e_r */
     state[FST_VX] = g->eps * rate * sine;
     state[FST_VY] = -g->eps * rate * cosine;

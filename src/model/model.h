@@ -3,22 +3,25 @@
 #define FST_MODEL_MODEL_H
 
 #include <festoon/festoon.h>
-#include "base/real_double.h"
+#include "base/compensated.h"
 
 #include "model/bodies.inl"
 
 struct fst_model {
-    fst_params params;
+    fst_params params; /* settled: each quantity has one form (forms.h) */
     fst_groups groups;
-    fst_coefficients_double coefficients;
-    fst_field_map *map; /* of a measured field, which the coefficients point into; else NULL */
+    fst_world_double world;
+    fst_field_map *map; /* of a measured field, which the world points into; else NULL */
     int has_s2;         /* whether the magnet's field has the symmetry S2: B(-X, -Y) = (B_X, B_Y, -B_Z)(X, Y) */
 };
+
+/* fst_field_model_new() into memory of the caller, who frees `map`. */
+fst_status fst_model_fill(const fst_params *params, double height, fst_model *model, fst_error *error);
 
 /* The angle between n and B from gap2 = |n - B/|B||^2, rad. */
 double fst_angle_of_gap(double gap2);
 
-/* The public observation of a state at the drive omega. */
-fst_observation fst_observe_double(const fst_coefficients_double *c, double omega, const double *state);
+/* The public observation of a motion at the drive omega. */
+fst_observation fst_observe_motion(const fst_world_double *c, const fst_motion_double *motion, double omega);
 
 #endif

@@ -21,8 +21,8 @@ typedef struct FN(seen) {
     REAL drive_power;
 } FN(seen);
 
-static inline void FN(see)(const FN(coefficients) * c, REAL omega, const REAL *y, const FN(pull) * p,
-                           FN(seen) * o)
+static inline void FN(see)(const FN(world) * c, const FN(modes) * m, REAL omega, const REAL *y,
+                           const FN(pull) * p, FN(seen) * o)
 {
     const REAL *v = y + FST_VX, *n = y + FST_NX, *w = y + FST_WX;
     const REAL r2 = SUM_2(y[FST_X], y[FST_X], y[FST_Y], y[FST_Y]);
@@ -50,7 +50,7 @@ static inline void FN(see)(const FN(coefficients) * c, REAL omega, const REAL *y
 #else
     o->centrifugal = o->v_alpha * o->v_alpha / (o->r + R(1e-290));
 #endif
-    const FN(contact) contact = FN(contact_of)(c, y, p);
+    const FN(contact) contact = FN(contact_of)(c, m, y, p);
     const REAL *slip = contact.slip;
     o->slip_r = SUM_2(slip[0], ex, slip[1], ey);
     o->slip_alpha = REAL_MULSUB(slip[1], ex, slip[0] * ey);
@@ -58,33 +58,34 @@ static inline void FN(see)(const FN(coefficients) * c, REAL omega, const REAL *y
     o->friction_power = FN(friction_loss)(&c->law, &c->kinds, &contact);
     o->rolling_power = HAS(c->kinds, dry) ? FN(resistance_loss)(&c->resistance, w, contact.load) : R(0.0);
     o->pivoting_power = HAS(c->kinds, patch) ? FN(coulomb_pivoting_loss)(&c->law.coulomb, &contact) : R(0.0);
-    o->flying = HAS(c->kinds, flies) ? REAL_SELECT(FN(in_flight)(c), R(1.0), R(0.0)) : R(0.0);
-    o->sticking = FN(sticks)(c);
+    o->flying = HAS(c->kinds, flies) ? REAL_SELECT(FN(in_flight)(m), R(1.0), R(0.0)) : R(0.0);
+    o->sticking = FN(sticks)(c, m);
     o->load = contact.load;
     o->spin = SUM_3(w[0], n[0], w[1], n[1], w[2], n[2]);
     o->force_r = SUM_2(p->force[0], ex, p->force[1], ey);
     o->force_alpha = REAL_MULSUB(p->force[1], ex, p->force[0] * ey);
-    /* Drive power dU/dt at fixed x, n, W: omega e.(x x F + tau). */
     const REAL twist = REAL_MULSUB(n[0], p->b[1], n[1] * p->b[0]);
-    o->drive_power = omega * SUM_2(o->r, o->force_alpha, p->strength, twist);
+    o->drive_power = FN(drive_power)(omega, o->r, o->force_alpha, p->strength, twist);
 }
 
-/* Kinetic and magnetic energy per mass. */
-static inline REAL FN(energy)(const FN(coefficients) * c, const REAL *y, const FN(pull) * p)
+/* Kinetic and magnetic energy per mass, and that of a bead's height and climb in the air. */
+static inline REAL FN(energy)(const FN(world) * c, const FN(modes) * m, const REAL *y, const FN(pull) * p)
 {
     const REAL *v = y + FST_VX, *n = y + FST_NX, *w = y + FST_WX;
     const REAL n_dot_b = n[0] * p->b[0] + n[1] * p->b[1] + n[2] * p->b[2];
     const REAL b2 = p->b[0] * p->b[0] + p->b[1] * p->b[1] + p->b[2] * p->b[2];
     const REAL kinetic = R(0.5) * (v[0] * v[0] + v[1] * v[1]) +
-                         R(0.2) * (c->eps * c->eps) * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+                         c->half_inertia * (c->eps * c->eps) * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
     REAL magnetic = c->hard * n_dot_b;
     if (c->kinds.magnetisable)
         magnetic = magnetic + R(0.5) * (c->twice_a * b2 + c->twice_b * (n_dot_b * n_dot_b));
-    return kinetic - magnetic;
+    if (!HAS(c->kinds, flies) || !REAL_ANY(FN(in_flight)(m)))
+        return kinetic - magnetic;
+    return R(0.5) * (y[FST_CLIMB] * y[FST_CLIMB]) + c->gravity * y[FST_HEIGHT] + (kinetic - magnetic);
 }
 
 /* `r0`, `b0`: reference values near the means, so that small deviations of r and |B| lose no digits. */
-static inline void FN(integrands)(const FN(coefficients) * c, const REAL *y, const FN(pull) * p,
+static inline void FN(integrands)(const FN(world) * c, const FN(modes) * m, const REAL *y, const FN(pull) * p,
                                   const FN(seen) * o, REAL r0, REAL b0, REAL q[FST_Q_COUNT])
 {
     q[FST_Q_R] = o->r;
@@ -108,7 +109,7 @@ static inline void FN(integrands)(const FN(coefficients) * c, const REAL *y, con
     const REAL ex = o->cos_bead_angle, ey = o->sin_bead_angle;
     const REAL printed[3] = {-(n_alpha * ey), n_alpha * ex, n_z};
     REAL g[3];
-    FN(gradient_along)(c, y[FST_X], y[FST_Y], p, printed, g);
+    FN(gradient_along)(c, y[FST_X], y[FST_Y], FN(height_of)(c, m, y), p, printed, g);
     q[FST_Q_FORCE_R_PRINTED] = c->hard * SUM_2(g[0], ex, g[1], ey);
     q[FST_Q_EQ23] = c->hard_over_eps * REAL_MULSUB(o->b[2], n_alpha, o->b[1] * n_z);
     for (int i = 0; i < 3; ++i)

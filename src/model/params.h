@@ -6,26 +6,44 @@
 
 /* The cookies of the definition structs: set by the fst_default_*() functions. */
 #define FST_PARAMS_COOKIE 0xfe570001u
-#define FST_FLOW_OPTIONS_COOKIE 0xfe570003u
+#define FST_FLOW_OPTIONS_COOKIE 0xfe570006u
 #define FST_RUN_OPTIONS_COOKIE 0xfe570003u
 #define FST_BRANCH_OPTIONS_COOKIE 0xfe570004u
 
-/* The cookie, every value's range, and the ranges between values (run.discard < run.periods, ...). */
-fst_status fst_params_validate(const fst_params *params, fst_error *error);
+/* A row of the tables of parameters; `field` is where fst_params holds it. */
+#define FST_PARAM_ROW(key, kind, unit, names, initial, least, greatest, doc, field)                            \
+    {                                                                                                          \
+        key, FST_KIND_##kind, FST_UNIT_##unit, names, initial, least, greatest, doc,                           \
+            offsetof(fst_params, field)                                                                        \
+    }
 
-/* Whether model.kappa was given, also with the value that is its default. */
-int fst_kappa_given(const fst_params *params);
+/* Settle them, and check the cookie, every value's range, and the ranges between values (run.discard
+ * < run.periods, ...). */
+fst_status fst_params_validate(fst_params *params, fst_error *error);
 
-/* Whether kappa follows from the bead and the magnet, so that model.kappa plays no part. */
-int fst_kappa_follows(const fst_params *params);
+/* No key is called so: a sentence with the nearest one. */
+fst_status fst_param_unknown_key(const char *key, fst_error *error);
 
-/* The moment that the scene tells, in A m^2, not by way of kappa; NAN: it tells none. */
+/* What to do about a key, or about its choice ("": the key itself), that earlier versions had; NULL: none had
+ * it. */
+const char *fst_param_removed(const char *key, const char *choice);
+
+/* The number in a row's field, an integer or the place of a choice too, and giving it one. */
+double fst_param_value(const fst_params *params, const fst_param_info *row);
+void fst_param_put(fst_params *params, const fst_param_info *row, double value);
+
+/* Whether a row may have a value.  The sentence shows it as `shown` (NULL: in the customary unit) and ends in
+ * `remark`. */
+fst_status fst_param_check_range(const fst_param_info *row, double value, const char *shown, const char *remark,
+                                 fst_error *error);
+
+/* The moment of the scene in A m^2, if it does not follow from kappa; NAN: not given. */
 double fst_given_moment(const fst_params *params);
 
 /* m R^2 gamma^2: kappa is moment times B0 over this. */
 double fst_moment_unit(const fst_params *params);
 
-/* B0 in T, as far as magnet.b0 or the kind of magnet tell it; NAN: they do not. */
+/* B0 in T, if magnet.b0 or the kind of magnet gives it; else NAN. */
 double fst_field_unit(const fst_params *params);
 
 /* What must be chosen so that `key` plays a part ("paramagnetic or mixed"), and of which key, *of

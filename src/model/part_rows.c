@@ -9,15 +9,12 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "base/units.h"
-
-#define KINDS "cuboid|cylinder|sphere|dipole"
+#include "model/forms.h"
+#include "model/params.h"
 
 #define NUMBER(i, name, unit, initial, least, greatest, doc)                                                   \
-    {                                                                                                          \
-        "magnet.parts[" #i "]." #name, FST_KIND_REAL, FST_UNIT_##unit, NULL, initial, least, greatest, doc,    \
-            offsetof(fst_params, magnet_parts[i].name)                                                         \
-    }
+    FST_PARAM_ROW("magnet.parts[" #i "]." #name, REAL, unit, NULL, initial, least, greatest, doc,              \
+                  magnet_parts[i].name)
 #define CENTRE(i, k, axis)                                                                                     \
     NUMBER(i, centre[k], LENGTH, NAN, -10.0, 10.0, "Centre of the part along " axis " of the magnet's frame.")
 #define REMANENCE(i, k, axis)                                                                                  \
@@ -29,15 +26,8 @@
     NUMBER(i, rotation[k], NUMBER, 0.0, -1e6, 1e6,                                                             \
            "The axis about which the part is turned, its component along " axis ".")
 #define PART(i)                                                                                                \
-    {"magnet.parts[" #i "].kind",                                                                              \
-     FST_KIND_CHOICE,                                                                                          \
-     FST_UNIT_NUMBER,                                                                                          \
-     KINDS,                                                                                                    \
-     NAN,                                                                                                      \
-     0,                                                                                                        \
-     0,                                                                                                        \
-     "What the part is: a block, a cylinder, a sphere or a point dipole.",                                     \
-     offsetof(fst_params, magnet_parts[i].kind)},                                                              \
+    FST_PARAM_ROW("magnet.parts[" #i "].kind", CHOICE, NUMBER, FST_WORDS(FST_PARTS), NAN, 0, 0,                \
+                  "What the part is: a block, a cylinder, a sphere or a point dipole.", magnet_parts[i].kind), \
         CENTRE(i, 0, "x"), CENTRE(i, 1, "y"), CENTRE(i, 2, "z"),                                               \
         NUMBER(i, size[0], LENGTH, NAN, 1e-6, 10.0,                                                            \
                "Edge of a cuboid along its own x; diameter of a cylinder or a sphere."),                       \
@@ -64,15 +54,12 @@ const fst_param_info *fst_part_row(int row)
 
 enum { KIND_FIELD, CENTRE_FIELD, SIZE_FIELD = 4, REMANENCE_FIELD = 7, MOMENT_FIELD = 10, TURN_FIELD = 13 };
 
+#define KIND(NAME, name, doc, sizes, size_count) {name, sizes, size_count},
 static const struct {
     const char *name, *sizes;
     int size_count;
-} kinds[FST_PART_KINDS] = {
-    [FST_PART_CUBOID] = {"cuboid", "three sizes, its edges", 3},
-    [FST_PART_CYLINDER] = {"cylinder", "two sizes, its diameter and its height", 2},
-    [FST_PART_SPHERE] = {"sphere", "one size, its diameter", 1},
-    [FST_PART_DIPOLE] = {"dipole", "no size", 0},
-};
+} kinds[] = {FST_PARTS(KIND)};
+#undef KIND
 
 int fst_part_has(int kind, int row)
 {
@@ -92,10 +79,9 @@ static fst_status has_not(int kind, int row, fst_error *error)
     const char *key = rows[row].key;
     if (field < REMANENCE_FIELD)
         return fst_fail(error, FST_BAD_INPUT, key, "%s: a %s has %s", key, kinds[kind].name, kinds[kind].sizes);
-    if (field < MOMENT_FIELD)
-        return fst_fail(error, FST_BAD_INPUT, key, "%s: a dipole has no remanence: give its moment", key);
-    return fst_fail(error, FST_BAD_INPUT, key, "%s: a %s has no moment of its own: give its remanence", key,
-                    kinds[kind].name);
+    const int dipole = kind == FST_PART_DIPOLE;
+    return fst_fail(error, FST_BAD_INPUT, key, "%s: a %s has no %s: give its %s", key, kinds[kind].name,
+                    dipole ? "remanence" : "moment of its own", dipole ? "moment" : "remanence");
 }
 
 static const fst_magnet_part *part_of(const fst_params *params, int row)
@@ -116,18 +102,6 @@ fst_status fst_part_may_set(const fst_params *params, int row, fst_error *error)
     return FST_OK;
 }
 
-static double *number_of(fst_params *params, int row)
-{
-    return (double *)(void *)((char *)params + rows[row].offset);
-}
-
-static double value_of(const fst_params *params, int row)
-{
-    double value;
-    memcpy(&value, (const char *)params + rows[row].offset, sizeof value);
-    return value;
-}
-
 void fst_part_was_set(fst_params *params, int row)
 {
     if (row % FST_PART_FIELDS != KIND_FIELD)
@@ -137,24 +111,23 @@ void fst_part_was_set(fst_params *params, int row)
     params->magnet_part_count += begins;
     for (int field = 1; field < FST_PART_FIELDS; ++field)
         if (begins || !fst_part_has(kind, field))
-            *number_of(params, row + field) = 0.0;
+            fst_param_put(params, &rows[row + field], 0.0);
 }
 
-/* ------------------------------------------------------------------ keys that are none */
+/* ------------------------------------------------------------------ keys that do not exist */
 
 fst_status fst_part_unknown_key(const char *key, fst_error *error)
 {
     static const char list[] = "magnet.parts";
-    char quoted[FST_QUOTE_SIZE], names[FST_PART_FIELDS * 40] = "", nearest[48], *end;
+    char quoted[FST_QUOTE_SIZE], names[FST_PART_FIELDS * 40] = "", suggestion[FST_SUGGESTION_SIZE], *end;
     fst_quote(key, quoted);
     const char *behind = key + strlen(list);
     const long part = *behind == '[' ? strtol(behind + 1, &end, 10) : -1;
     if (part < 0 || *end != ']' || end == behind + 1)
-        return fst_fail(
-            error, FST_BAD_INPUT, key,
-            "unknown key %s: a number of a part has a key such as magnet.parts[0].size[2], its kind "
-            "magnet.parts[0].kind",
-            quoted);
+        return fst_fail(error, FST_BAD_INPUT, key,
+                        "unknown key %s: a number of a part has a key such as magnet.parts[0].size[2], its "
+                        "kind magnet.parts[0].kind",
+                        quoted);
     if (part >= FST_PARTS_MAX)
         return fst_fail(error, FST_BAD_INPUT, key,
                         "unknown key %s: a magnet has at most %d parts, magnet.parts[0] to magnet.parts[%d]",
@@ -164,29 +137,22 @@ fst_status fst_part_unknown_key(const char *key, fst_error *error)
         (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "",
                        rows[(int)part * FST_PART_FIELDS + field].key);
     }
-    fst_nearest_name(key, names, nearest, sizeof nearest);
-    return fst_fail(error, FST_BAD_INPUT, key, "unknown key %s; the nearest is %s", quoted, nearest);
+    return fst_fail(error, FST_BAD_INPUT, key, "unknown key %s; %s", quoted,
+                    fst_suggest_name(key, names, suggestion));
 }
 
 /* ------------------------------------------------------------------ checking parts as a whole */
 
 static fst_status validate_number(const fst_params *params, int row, fst_error *error)
 {
-    const double value = value_of(params, row);
-    const fst_param_info *info = &rows[row];
+    const double value = fst_param_value(params, &rows[row]);
     const int kind = part_of(params, row)->kind;
     if (!fst_part_has(kind, row))
         return value == 0.0 ? FST_OK : has_not(kind, row, error);
-    if (value >= info->least && value <= info->greatest)
-        return FST_OK;
-    const int is_size = row % FST_PART_FIELDS >= SIZE_FIELD && row % FST_PART_FIELDS < REMANENCE_FIELD;
-    char shown[64], least[64], greatest[64];
-    (void)fst_value_write(shown, sizeof shown, value, info->unit);
-    (void)fst_value_write(least, sizeof least, info->least, info->unit);
-    (void)fst_value_write(greatest, sizeof greatest, info->greatest, info->unit);
-    return fst_fail(error, FST_BAD_INPUT, info->key, "%s = %s is out of range: it must be %s to %s%s%s%s%s%s",
-                    info->key, shown, least, greatest, is_size ? " (a " : "", is_size ? kinds[kind].name : "",
-                    is_size ? " has " : "", is_size ? kinds[kind].sizes : "", is_size ? ")" : "");
+    char remark[64] = "";
+    if (row % FST_PART_FIELDS >= SIZE_FIELD && row % FST_PART_FIELDS < REMANENCE_FIELD)
+        (void)snprintf(remark, sizeof remark, " (a %s has %s)", kinds[kind].name, kinds[kind].sizes);
+    return fst_param_check_range(&rows[row], value, NULL, remark, error);
 }
 
 static fst_status validate_numbers(const fst_params *params, int part, fst_error *error)
@@ -195,7 +161,7 @@ static fst_status validate_numbers(const fst_params *params, int part, fst_error
     const int first = part * FST_PART_FIELDS;
     if (p->kind < 0 || p->kind >= FST_PART_KINDS)
         return fst_fail(error, FST_BAD_INPUT, rows[first].key, "%s: no kind has the number %d (kinds: %s)",
-                        rows[first].key, p->kind, KINDS);
+                        rows[first].key, p->kind, FST_WORDS(FST_PARTS));
     for (int field = 1; field < FST_PART_FIELDS; ++field) {
         const fst_status status = validate_number(params, first + field, error);
         if (status != FST_OK)
@@ -203,11 +169,10 @@ static fst_status validate_numbers(const fst_params *params, int part, fst_error
     }
     const double *turn = p->rotation;
     if (turn[0] != 0.0 && turn[1] == 0.0 && turn[2] == 0.0 && turn[3] == 0.0)
-        return fst_fail(
-            error, FST_BAD_INPUT, rows[first + TURN_FIELD].key,
-            "magnet.parts[%d].rotation: a turn by %g degrees needs an axis: [degrees, x, y, z] with x, y "
-            "and z not all 0",
-            part, turn[0]);
+        return fst_fail(error, FST_BAD_INPUT, rows[first + TURN_FIELD].key,
+                        "magnet.parts[%d].rotation: a turn by %g degrees needs an axis: [degrees, x, y, z] "
+                        "with x, y and z not all 0",
+                        part, turn[0]);
     return FST_OK;
 }
 
@@ -230,14 +195,13 @@ static fst_status lies_below(const fst_params *params, int part, fst_error *erro
         return FST_OK;
     char where[48];
     (void)snprintf(where, sizeof where, "magnet.parts[%d]", part);
-    return fst_fail(
-        error, FST_BAD_INPUT, where,
-        "%s, a %s, reaches %.6g mm above the magnet's reference plane, but the plate lies at %.6g mm "
-        "(magnet.depth): a part must end below the plate",
-        where, kinds[p->kind].name, 1e3 * top, 1e3 * plate);
+    return fst_fail(error, FST_BAD_INPUT, where,
+                    "%s, a %s, reaches %.6g mm above the magnet's reference plane, but the plate lies at %.6g "
+                    "mm (magnet.depth): a part must end below the plate",
+                    where, kinds[p->kind].name, 1e3 * top, 1e3 * plate);
 }
 
-fst_status fst_params_check_part(const fst_params *params, int part, fst_error *error)
+fst_status fst_part_check(const fst_params *params, int part, fst_error *error)
 {
     if (part < 0 || part >= params->magnet_part_count || part >= FST_PARTS_MAX)
         return fst_fail(error, FST_BAD_INPUT, "magnet.parts", "the magnet has %d parts, and none is number %d",
@@ -258,7 +222,7 @@ fst_status fst_parts_validate(const fst_params *params, fst_error *error)
                         "centre, size and remanence");
     fst_status status = FST_OK;
     for (int part = 0; part < count && status == FST_OK; ++part)
-        status = params->magnet_shape == FST_MAGNET_PARTS ? fst_params_check_part(params, part, error)
+        status = params->magnet_shape == FST_MAGNET_PARTS ? fst_part_check(params, part, error)
                                                           : validate_numbers(params, part, error);
     return status;
 }

@@ -10,7 +10,7 @@ enum { FST_PART_FIELDS = 17, FST_PART_ROWS = FST_PART_FIELDS * FST_PARTS_MAX };
 /* Row 0 to FST_PART_ROWS - 1, part after part. */
 const fst_param_info *fst_part_row(int row);
 
-/* Whether a part of this kind has what the row tells. */
+/* Whether a part of this kind has the number of this row. */
 int fst_part_has(int kind, int row);
 
 /* FST_BAD_INPUT: the magnet has no such part, or a part of its kind no such number. */
@@ -21,6 +21,9 @@ void fst_part_was_set(fst_params *params, int row);
 
 /* No key of params.def or of a part is `key`, which begins with "magnet.parts". */
 fst_status fst_part_unknown_key(const char *key, fst_error *error);
+
+/* One part: its numbers, and that it lies below the plate. */
+fst_status fst_part_check(const fst_params *params, int part, fst_error *error);
 
 /* The number of parts, and fst_params_check_part() of each; parts that take no part in the field may lie
  * anywhere. */

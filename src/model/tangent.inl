@@ -18,14 +18,14 @@ typedef struct FN(linear) {
     FN(contact) contact;
 } FN(linear);
 
-static inline __attribute__((always_inline)) void FN(linearise)(const FN(coefficients) * c, REAL omega,
-                                                                const REAL *y, FN(linear) * l, REAL *dy)
+static inline __attribute__((always_inline)) void
+FN(linearise)(const FN(world) * c, const FN(modes) * m, REAL omega, const REAL *y, FN(linear) * l, REAL *dy)
 {
 #ifdef FST_COUNT_EVALUATION
     FST_COUNT_EVALUATION(); /* as in magnetic_pull() */
 #endif
     const REAL *n = y + FST_NX, *b = l->at.b;
-    FN(source_look)(&c->source, &c->kinds, y[FST_X], y[FST_Y], &l->at);
+    FN(source_look)(&c->source, &c->kinds, y[FST_X], y[FST_Y], FN(height_of)(c, m, y), &l->at);
     FN(pull) p;
     const REAL s = p.strength = l->strength = FN(strength)(c, n, b);
     for (int i = 0; i < 3; ++i) {
@@ -36,13 +36,13 @@ static inline __attribute__((always_inline)) void FN(linearise)(const FN(coeffic
             l->dipole[i] = s * n[i];
     }
     FN(times_gradient)(&l->at.gradient, l->dipole, p.force);
-    l->contact = FN(contact_of)(c, y, &p);
+    l->contact = FN(contact_of)(c, m, y, &p);
     FN(kinematics)(omega, y, dy);
-    FN(dynamics)(c, omega, y, &p, dy);
+    FN(dynamics)(c, m, omega, y, &p, dy);
 }
 
 /* dF, and in `turning` ds B + s dB, as the place and n change. */
-static inline void FN(pull_change)(const FN(coefficients) * c, const FN(linear) * l, const REAL *y,
+static inline void FN(pull_change)(const FN(world) * c, const FN(linear) * l, const REAL *y,
                                    const REAL *tangent, REAL force[3], REAL turning[3])
 {
     const REAL *n = y + FST_NX, *dn = tangent + FST_NX, *b = l->at.b, s = l->strength;
@@ -84,28 +84,28 @@ static inline void FN(add_lost_change)(const REAL *n, const REAL *w, const REAL 
 }
 
 /* The change of the torque of a plate that resists rolling, from that of the magnet's torque, `turning`. */
-static inline void FN(resist_rolling_change)(const FN(coefficients) * c, const FN(linear) * l, const REAL *y,
+static inline void FN(resist_rolling_change)(const FN(world) * c, const FN(linear) * l, const REAL *y,
                                              const REAL *tangent, const REAL force[3], const REAL turning[3],
                                              const REAL lost[3], FN(contact) * by)
 {
     REAL df[2];
-    if (FN(resist_asks_balance)(&c->resistance)) {
+    if (FN(resist_asks_balance)(l->contact.modes)) {
         for (int i = 0; i < 2; ++i)
-            by->push[i] = R(3.5) * force[i];
+            by->push[i] = c->yielding * force[i];
         FN(friction_change)(&c->law, &c->kinds, &l->contact, by, df);
         by->balance[0] = turning[0] + lost[0] / c->torque - c->eps * df[1];
         by->balance[1] = turning[1] + lost[1] / c->torque + c->eps * df[0];
     }
     FN(resist_change)
-    (&c->resistance, y + FST_WX, l->contact.load, l->contact.balance, tangent + FST_WX, by->load, by->balance,
-     by->torque);
+    (&c->resistance, l->contact.modes, l->contact.time, y + FST_WX, l->contact.load, l->contact.balance,
+     tangent + FST_WX, by->load, by->balance, by->torque);
 }
 
 /* The changes of the resistances' torque and of A, from those of the load, the force and the magnet's torque,
  * which is strength * twist + torque. */
-static inline void FN(dry_change)(const FN(coefficients) * c, const FN(linear) * l, const REAL *y,
-                                  const REAL *tangent, const REAL force[3], const REAL twist[3],
-                                  const REAL torque[3], FN(contact) * by)
+static inline void FN(dry_change)(const FN(world) * c, const FN(linear) * l, const REAL *y, const REAL *tangent,
+                                  const REAL force[3], const REAL twist[3], const REAL torque[3],
+                                  FN(contact) * by)
 {
     const REAL *n = y + FST_NX, *w = y + FST_WX, *dn = tangent + FST_NX, *dw = tangent + FST_WX;
     REAL turning[3], lost[3] = {R(0.0), R(0.0), R(0.0)};
@@ -125,14 +125,14 @@ static inline void FN(dry_change)(const FN(coefficients) * c, const FN(linear) *
         turning[i] = turning[i] + by->torque[i];
     FN(push)(c, force, turning, c->kinds.gyroscopic_term_lost ? lost : NULL, by->push);
     for (int i = 0; HAS(c->kinds, resists) && i < 2; ++i)
-        by->push[i] = REAL_SELECT(FN(rests)(&c->resistance), kept[i], by->push[i]);
+        by->push[i] = REAL_SELECT(FN(rests)(l->contact.modes), kept[i], by->push[i]);
     if (HAS(c->kinds, patch))
         by->torque[2] =
             FN(coulomb_pivoting_change)(&c->law.coulomb, &l->contact, by, turning[2] + lost[2] / c->torque);
 }
 
 /* The change of d(state)/dt along `tangent` at the state that was linearised. */
-static inline void FN(change_along)(const FN(coefficients) * c, REAL omega, const REAL *y, const FN(linear) * l,
+static inline void FN(change_along)(const FN(world) * c, REAL omega, const REAL *y, const FN(linear) * l,
                                     const REAL *tangent, REAL *change)
 {
     const REAL *n = y + FST_NX, *w = y + FST_WX, *dn = tangent + FST_NX, *dw = tangent + FST_WX;
@@ -157,7 +157,8 @@ static inline void FN(change_along)(const FN(coefficients) * c, REAL omega, cons
     /* Of the kinematics, which are linear but for the product W x n, that of the tangent's own dW x dn is not
      * wanted: (W - omega e) x dn + dW x n stands in its place. */
     FN(kinematics)(omega, tangent, change);
-    const REAL turn[3] = {w[0], w[1], w[2] - omega};
+    REAL turn[3];
+    FN(turning_seen)(omega, w, turn);
     FN(cross)(turn, dn, change + FST_NX);
     FN(cross)(dw, n, dwxn);
     for (int i = 0; i < 3; ++i)
@@ -165,25 +166,25 @@ static inline void FN(change_along)(const FN(coefficients) * c, REAL omega, cons
     if (c->kinds.gyroscopic_term_lost)
         FN(add_lost_change)(n, w, dn, dw, change + FST_WX);
     if (HAS(c->kinds, resists))
-        FN(keep_at_rest)(c, change);
+        FN(keep_at_rest)(c, l->contact.modes, change);
 }
 
 /* d(state)/dt at the drive `omega`, and its change along `tangent`. */
-static inline void FN(rhs_and_tangent)(const FN(coefficients) * c, REAL omega, const REAL *y,
+static inline void FN(rhs_and_tangent)(const FN(world) * c, const FN(modes) * m, REAL omega, const REAL *y,
                                        const REAL *tangent, REAL *dy, REAL *change)
 {
     FN(linear) l;
-    FN(linearise)(c, omega, y, &l, dy);
+    FN(linearise)(c, m, omega, y, &l, dy);
     FN(change_along)(c, omega, y, &l, tangent, change);
 }
 
 /* jacobian[i][j] = d(y'_i)/d(y_j) at the drive `omega`: column j is the change along axis j. */
-static inline void FN(jacobian)(const FN(coefficients) * c, REAL omega, const REAL *y,
+static inline void FN(jacobian)(const FN(world) * c, const FN(modes) * m, REAL omega, const REAL *y,
                                 REAL jacobian[FST_STATE_SIZE][FST_STATE_SIZE])
 {
     FN(linear) l;
     REAL dy[FST_STATE_SIZE], axis[FST_STATE_SIZE], column[FST_STATE_SIZE];
-    FN(linearise)(c, omega, y, &l, dy);
+    FN(linearise)(c, m, omega, y, &l, dy);
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         axis[i] = R(0.0);
     for (int j = 0; j < FST_STATE_SIZE; ++j) {

@@ -52,14 +52,9 @@ void fst_closing_see(fst_closing *c, double distance)
     c->approached |= distance > FAR * c->limit && isfinite(distance);
 }
 
-static double time_between(const fst_mark *first, const fst_mark *last)
-{
-    return fst_twofold_difference(last->t, first->t);
-}
-
 double fst_closing_turn(const fst_closing *c)
 {
-    return time_between(&c->mark[BEFORE], &c->mark[LAST]);
+    return fst_time_between(&c->mark[BEFORE], &c->mark[LAST]);
 }
 
 double fst_closing_way(const fst_closing *c, double until)
@@ -72,24 +67,18 @@ double fst_closing_way(const fst_closing *c, double until)
     return last * (rho < 1.0 ? fmin(1.0 / (1.0 - rho), marks) : marks);
 }
 
-/* The mean of an integrand between two marks. */
-static double mean(const fst_mark *first, const fst_mark *last, int which)
-{
-    return (last->integrals[which] - first->integrals[which]) / time_between(first, last);
-}
-
 /* Whether the motion between the last two marks was the one between the two before. */
 static int way_agrees(const fst_closing *c)
 {
     static const int compared[] = {FST_Q_R, FST_Q_N_Z};
     const fst_mark *first = &c->mark[FIRST], *before = &c->mark[BEFORE], *last = &c->mark[LAST];
-    const double turn = time_between(before, last), longer = turn - time_between(first, before),
+    const double turn = fst_time_between(before, last), longer = turn - fst_time_between(first, before),
                  further = (last->bead_angle - before->bead_angle) - (before->bead_angle - first->bead_angle);
     int agrees =
         fabs(longer) <= SAME_TURN * c->limit * fmax(turn, 1.0) && fabs(further) <= SAME_TURN * c->limit;
     for (size_t i = 0; i < sizeof compared / sizeof *compared; ++i)
-        agrees &=
-            fabs(mean(before, last, compared[i]) - mean(first, before, compared[i])) <= SAME_MEANS * c->limit;
+        agrees &= fabs(fst_mean_between(before, last, compared[i]) -
+                       fst_mean_between(first, before, compared[i])) <= SAME_MEANS * c->limit;
     return agrees;
 }
 
@@ -98,7 +87,7 @@ void fst_closing_forget(fst_closing *c)
     c->count = c->known = 0;
 }
 
-static void note(fst_closing *c, double distance)
+void fst_closing_go_on(fst_closing *c, double distance)
 {
     memmove(c->distances + 1, c->distances, FST_CLOSING_PAST * sizeof *c->distances);
     c->distances[0] = distance;
@@ -107,7 +96,7 @@ static void note(fst_closing *c, double distance)
 
 int fst_closing_add(fst_closing *c, const fst_mark *mark, double until)
 {
-    note(c, mark->full_distance);
+    fst_closing_go_on(c, mark->full_distance);
     if (!(mark->full_distance < c->limit)) {
         fst_closing_see(c, mark->full_distance);
         c->count = 0;
@@ -119,11 +108,6 @@ int fst_closing_add(fst_closing *c, const fst_mark *mark, double until)
     }
     c->count += c->count <= 3;
     return c->count > 3 && c->approached && fst_closing_way(c, until) <= c->limit && way_agrees(c);
-}
-
-void fst_closing_go_on(fst_closing *c, double distance)
-{
-    note(c, distance);
 }
 
 int fst_closing_holds(const fst_closing *c)

@@ -4,7 +4,7 @@
 
 #include "observe/marks.h"
 
-enum { FST_CLOSING_PAST = 8 }; /* marks back, from which the factor is told by which they come closer */
+enum { FST_CLOSING_PAST = 8 }; /* marks back, which show the factor by which they come closer */
 
 typedef struct fst_closing {
     double rtol;      /* of the integration */

@@ -4,8 +4,8 @@
  * several:
  *
  *      r |    A           A           A           A     the states at the maxima are compared with those of the
- *        |   / \   B     / \   B     / \   B     /      latest eight: this one, with two maxima to a cycle,
- * comes |  /   \_/ \   /   \_/ \   /   \_/ \   /       back to the second before
+ *        |   / \   B     / \   B     / \   B     /      latest eight: this one, with two maxima to a cycle, comes
+ *        |  /   \_/ \   /   \_/ \   /   \_/ \   /       back to the second before
  *        +------------------------------------------ t
  *
  * A state that is that of an earlier maximum completes a cycle; from then on the states at later maxima are

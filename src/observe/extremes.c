@@ -9,7 +9,7 @@
  *          x                            x      x       nothing is looked for
  *     places of the step (ode/path.h)
  *
- * peaks.inl is that question, with margins that leave none out (tests/test_extremes.c).  Where the answer is
+ * peaks.inl is that question, with margins that leave none out (tests/observe/test_extremes.c).  Where the answer is
  * yes, the extreme is located on the dense output between the best place's neighbours.
  *
  * Lanes ask the same question of all their steps at once.  Those of the portable form bring the step here, so
@@ -50,37 +50,29 @@ void fst_extremes_offer(fst_extreme extremes[FST_TRACK_COUNT], int record, doubl
  * magnet's pull, is not made. */
 static double tracked_at(fst_flow *flow, double x, const void *what)
 {
-    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    const fst_world_double *c = fst_flow_world(flow);
+    const fst_modes_double *m = fst_flow_modes(flow);
     const int which = *(const int *)what;
     const int first = which == FST_TRACK_SLIP ? FST_VX : FST_X;
     const int count = which == FST_TRACK_R || which == FST_TRACK_B ? 2 : FST_STATE_SIZE - first;
-    double state[FST_STATE_SIZE] = {0.0}, unused[3];
+    double y[FST_NUMBERS] = {0.0}, unused[3];
     fst_pull_double p = {.strength = 0.0};
     fst_seen_double seen;
-    fst_flow_make_dense(flow);
-    fst_bead_evaluate_dense_double(count, &flow->step.dense[0][first], FST_STATE_SIZE, x, state + first);
-    switch (which) {
-    case FST_TRACK_R:
-        fst_see_double(c, 0.0, state, &p, &seen);
-        return seen.r;
-    case FST_TRACK_B:
-        fst_field_along_double(c, state[FST_X], state[FST_Y], state + FST_NX, p.b, unused);
-        fst_see_double(c, 0.0, state, &p, &seen);
-        return seen.b_norm;
-    case FST_TRACK_GAP:
-        (void)fst_renormalise_double(state);
-        fst_field_along_double(c, state[FST_X], state[FST_Y], state + FST_NX, p.b, unused);
-        fst_see_double(c, 0.0, state, &p, &seen);
-        return seen.gap2;
-    case FST_TRACK_SLIP:
-        fst_see_double(c, 0.0, state, &p, &seen);
-        return seen.slip2;
-    default:
-        (void)fst_renormalise_double(state);
-        fst_magnetic_pull_double(c, state, &p);
-        fst_see_double(c, 0.0, state, &p, &seen);
-        return seen.load;
-    }
+    fst_flow_components_at(flow, x, first, count, y + first);
+    if (c->kinds.modes)
+        fst_flow_components_at(flow, x, FST_STATE_SIZE, FST_NUMBERS - FST_STATE_SIZE, y + FST_STATE_SIZE);
+    if (which == FST_TRACK_GAP || which == FST_TRACK_LOAD)
+        (void)fst_renormalise_double(y);
+    if (which == FST_TRACK_B || which == FST_TRACK_GAP)
+        fst_field_along_double(c, y[FST_X], y[FST_Y], fst_height_of_double(c, m, y), y + FST_NX, p.b, unused);
+    else if (which == FST_TRACK_LOAD)
+        fst_magnetic_pull_double(c, m, y, &p);
+    fst_see_double(c, m, 0.0, y, &p, &seen);
+    return which == FST_TRACK_R      ? seen.r
+           : which == FST_TRACK_B    ? seen.b_norm
+           : which == FST_TRACK_GAP  ? seen.gap2
+           : which == FST_TRACK_SLIP ? seen.slip2
+                                     : seen.load;
 }
 
 /* The greatest sign * value of one quantity in the last step, if it may beat the record. */
@@ -132,7 +124,7 @@ void fst_extremes_step(fst_extreme extremes[FST_TRACK_COUNT], const fst_quadratu
     }
 }
 
-/* ------------------------------------------------------------------ what a result tells */
+/* ------------------------------------------------------------------ what a result has */
 
 void fst_extremes_fill(const fst_extreme extremes[FST_TRACK_COUNT], double gravity, fst_run_result *result)
 {

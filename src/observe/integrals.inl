@@ -49,16 +49,17 @@ static inline void FN(add_increments)(FN(integrals) * q, REAL_MASK mask)
 static inline void FN(look_at_place)(FN(integrals) * q, const FN(bead_step) * s, REAL omega, int place,
                                      REAL_MASK renew)
 {
-    const FN(coefficients) *c = &s->context.coefficients;
+    const FN(world) *c = FST_WORLD(s);
+    const FN(modes) *m = FST_MODES(s);
     const REAL *state = FST_PATH_STATE(s, place);
     const FN(pull) *pull = FST_PATH_PULL(s, place);
     FN(seen) seen;
-    FN(see)(c, omega, state, pull, &seen);
+    FN(see)(c, m, omega, state, pull, &seen);
     if (place == 0) {
         q->r_reference = REAL_SELECT(renew, seen.r, q->r_reference);
         q->b_reference = REAL_SELECT(renew, seen.b_norm, q->b_reference);
     }
-    FN(integrands)(c, state, pull, &seen, q->r_reference, q->b_reference, q->integrands[place]);
+    FN(integrands)(c, m, state, pull, &seen, q->r_reference, q->b_reference, q->integrands[place]);
 #if KNOWS_DRY
     FN(pace_integrands)(s, place, FST_Q_COUNT, q->integrands[place]);
 #endif
@@ -106,8 +107,7 @@ static inline REAL FN(passage_measure)(const REAL a[2], const REAL b[2], REAL li
 }
 
 /* Positive where the method's rule, of order 8, errs by more than the tolerance of the steps: rho^8 < 1/rtol,
- * or
- * (|a| + |b|)^2 < w^2 rtol^(-1/4)/4; at loose tolerances where the direction turns by a radian. */
+ * or (|a| + |b|)^2 < w^2 rtol^(-1/4)/4; at loose tolerances where the direction turns by a radian. */
 static inline REAL FN(passes_closely)(const REAL a[2], const REAL b[2], REAL rtol)
 {
     const REAL limit2 = REAL_MAX(R(0.25) / REAL_SQRT(REAL_SQRT(rtol)), R(4.0));

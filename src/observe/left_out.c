@@ -1,6 +1,6 @@
 /* left_out.c - what becomes of a window in which the motion repeats itself.
  *
- * Observing costs more than integrating.  Where successive returns agree to what the integration can tell, the
+ * Observing costs more than integrating.  Where successive returns agree to the accuracy of the integration, the
  * next ones bring nothing new: the motion still goes on step by step, but is not looked at until shortly before
  * the window's end.
  *
@@ -33,19 +33,14 @@ static const double OBSERVED_AT_END = 6.0, WORTHWHILE = 4.0;
 static const double STILL_THE_SAME = 100.0;
 
 /* Greatest error of a mean that may come in, in the integration's tolerance or the default one. */
-static const double CERTAIN = 0.5, DEFAULT_RTOL = 1e-10;
+static const double CERTAIN = 0.5;
 
 /* The marks of a part. */
 enum { FIRST, BEFORE, LAST, AFTER };
 
-static double time_between(const fst_mark *first, const fst_mark *last)
-{
-    return fst_twofold_difference(last->t, first->t);
-}
-
 double fst_left_out_turn(const fst_left_out *part)
 {
-    return time_between(&part->mark[BEFORE], &part->mark[LAST]);
+    return fst_time_between(&part->mark[BEFORE], &part->mark[LAST]);
 }
 
 double fst_left_out_until(const fst_left_out *part, const fst_span *span)
@@ -53,13 +48,7 @@ double fst_left_out_until(const fst_left_out *part, const fst_span *span)
     return span->until - OBSERVED_AT_END * fst_left_out_turn(part);
 }
 
-/* The mean of an integrand over one return. */
-static double mean(const fst_mark *first, const fst_mark *last, int which)
-{
-    return (last->integrals[which] - first->integrals[which]) / time_between(first, last);
-}
-
-/* The factor by which successive returns come closer; 1: they do not, or nobody can tell. */
+/* The factor by which successive returns come closer; 1: they do not, or it is not known. */
 static double approach(const fst_left_out *part)
 {
     const double rho = part->mark[LAST].full_distance / part->mark[BEFORE].full_distance;
@@ -73,10 +62,10 @@ static int is_certain(const fst_left_out *part, double returns)
 {
     const double slowness = fmax(1.0 - approach(part), 1.0 / returns),
                  sum = 1.0 / (slowness * slowness * returns);
-    const double certain = CERTAIN * fmax(part->rtol, DEFAULT_RTOL);
+    const double certain = CERTAIN * fmax(part->rtol, FST_DEFAULT_RTOL);
     for (int i = 0; i < FST_Q_COUNT; ++i) {
-        const double now = mean(&part->mark[BEFORE], &part->mark[LAST], i);
-        const double change = fabs(now - mean(&part->mark[FIRST], &part->mark[BEFORE], i));
+        const double now = fst_mean_between(&part->mark[BEFORE], &part->mark[LAST], i);
+        const double change = fabs(now - fst_mean_between(&part->mark[FIRST], &part->mark[BEFORE], i));
         if (!(change * fmax(sum, 1.0) <= certain * fmax(fabs(now), 1.0)))
             return 0;
     }
@@ -124,7 +113,7 @@ static double weight_of_before(const fst_left_out *part)
 static fst_mark between(const fst_mark *from, const fst_mark *to, double x)
 {
     fst_mark mark = *from;
-    mark.t = fst_twofold_add(from->t, x * time_between(from, to));
+    mark.t = fst_twofold_add(from->t, x * fst_time_between(from, to));
     for (int i = 0; i < FST_Q_COUNT; ++i)
         mark.integrals[i] += x * (to->integrals[i] - from->integrals[i]);
     mark.bead_angle += x * (to->bead_angle - from->bead_angle);
@@ -137,9 +126,9 @@ static fst_mark between(const fst_mark *from, const fst_mark *to, double x)
 static void complete(const fst_left_out *part, const fst_mark *second, fst_mark *first, fst_quadrature *q)
 {
     const fst_mark *p = &part->mark[BEFORE], *l = &part->mark[LAST];
-    const double time = time_between(l, first), w = weight_of_before(part);
+    const double time = fst_time_between(l, first), w = weight_of_before(part);
     for (int i = 0; i < FST_Q_COUNT; ++i) {
-        const double late = mean(first, second, i), early = mean(p, l, i);
+        const double late = fst_mean_between(first, second, i), early = fst_mean_between(p, l, i);
         q->left_out[i] = l->integrals[i] + (late + w * (early - late)) * time - first->integrals[i];
         first->integrals[i] += q->left_out[i];
     }

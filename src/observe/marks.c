@@ -14,8 +14,6 @@
  */
 #include "observe/marks.h"
 
-#include "ode/flight.h"
-
 #include <math.h>
 #include <string.h>
 
@@ -62,13 +60,13 @@ double fst_state_distance(const double *a, const double *b)
 
 void fst_mark_take(fst_mark *mark, fst_quadrature *q, fst_flow *flow, double x, int whole)
 {
+    const fst_world_double *c = fst_flow_world(flow);
+    fst_motion_double at;
     memset(mark, 0, sizeof *mark);
     mark->t = fst_flow_time(flow, x);
-    mark->omega = fst_flow_omega(flow, mark->t);
-    if (x == 1.0)
-        memcpy(mark->state, flow->step.end, sizeof mark->state);
-    else
-        fst_flow_at(flow, x, mark->state);
+    mark->omega = fst_drive_rate_double(&flow->drive, mark->t);
+    fst_flow_motion_at(flow, x, &at);
+    memcpy(mark->state, at.numbers, sizeof mark->state);
     if (!whole)
         return;
     fst_quadrature_at(q, flow, x, mark->integrals, &mark->moment_angle);
@@ -79,7 +77,6 @@ void fst_mark_take(fst_mark *mark, fst_quadrature *q, fst_flow *flow, double x, 
     const fst_winding angle = fst_flow_bead_angle(flow, x);
     mark->bead_angle = fst_winding_angle(&angle);
     fst_pull_double p;
-    mark->energy = fst_flight_energy(flow, x);
-    fst_magnetic_pull_double(&flow->step.context.coefficients, mark->state, &p);
-    mark->energy += fst_energy_double(&flow->step.context.coefficients, mark->state, &p);
+    fst_magnetic_pull_double(c, &at.modes, at.numbers, &p);
+    mark->energy = fst_energy_double(c, &at.modes, at.numbers, &p);
 }

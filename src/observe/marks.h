@@ -53,6 +53,17 @@ static inline void fst_marks_pass(fst_mark_series *series)
 /* Greatest difference of two states, each vector against its own scale being of order one in scaled units. */
 double fst_state_distance(const double *a, const double *b);
 
+static inline double fst_time_between(const fst_mark *first, const fst_mark *last)
+{
+    return fst_twofold_difference(last->t, first->t);
+}
+
+/* The mean of an integrand between two marks. */
+static inline double fst_mean_between(const fst_mark *first, const fst_mark *last, int which)
+{
+    return (last->integrals[which] - first->integrals[which]) / fst_time_between(first, last);
+}
+
 /* Snapshot at the fraction x of the flow's last step; `whole`: else without integrals, angles and energy. */
 void fst_mark_take(fst_mark *mark, fst_quadrature *q, fst_flow *flow, double x, int whole);
 

@@ -2,13 +2,13 @@
  *
  * The mean of any quantity between two marks is the difference of its integrals there over the time between
  * them. Between the first and the latest mark of a series this is the mean that is reported; between
- * neighbouring kept marks it is the mean of a block, and the blocks tell how far the mean may be off:
+ * neighbouring kept marks it is the mean of a block, and the blocks show how far the mean may be off:
  *
  *     kept marks   |-----------|-----------|-----------|-----------|---...
  *     block means       m1          m2          m3          m4
  *
  *     scatter      twice the deviation of the blocks over the root of their number
- *     drift        three times what is left of a mean that still moves one way: drift_error()
+ *     drift        three times the way that a mean which still moves has to go: drift_error()
  *     approach     what blocks that came closer to the last one have added: approach_error()
  *     unseen       what all blocks may lack alike, because they end within a swing: unseen_of()
  *     tolerance    what the integration may have lost
@@ -20,6 +20,8 @@
 #include "observe/means.h"
 
 #include <math.h>
+#include <stddef.h>
+#include <string.h>
 
 #include "base/constants.h"
 #include "base/elementary.h"
@@ -40,17 +42,6 @@ static const double SHIFT = 2.0;
 /* The integration may have lost so many times its tolerance. */
 static const double LOST = 4.0;
 
-static double time_between(const fst_mark *first, const fst_mark *last)
-{
-    return fst_twofold_difference(last->t, first->t);
-}
-
-/* Mean of one integrand between two marks. */
-static double mean(const fst_mark *first, const fst_mark *last, int which)
-{
-    return (last->integrals[which] - first->integrals[which]) / time_between(first, last);
-}
-
 /* sqrt(<u^2> - <u>^2) from <(u - u0)^2> and <u> - u0, never the root of a negative rounding error. */
 static double deviation(double mean_square, double mean_difference)
 {
@@ -60,15 +51,16 @@ static double deviation(double mean_square, double mean_difference)
 
 void fst_means_between(const fst_window *w, const fst_mark *first, const fst_mark *last, fst_ramp_point *means)
 {
-    const double time = fst_twofold_difference(last->t, first->t);
+    const double time = fst_time_between(first, last);
     means->omega = 0.5 * (first->omega + last->omega); /* on a ramp the mean drive is the one in the middle */
     means->frequency_hz = means->omega / (FST_TWO_PI * w->groups.time_unit);
-    means->mean_r = mean(first, last, FST_Q_R);
-    means->std_r = deviation(mean(first, last, FST_Q_R2), means->mean_r - w->quadrature.sums.r_reference);
+    means->mean_r = fst_mean_between(first, last, FST_Q_R);
+    means->std_r =
+        deviation(fst_mean_between(first, last, FST_Q_R2), means->mean_r - w->quadrature.sums.r_reference);
     means->mean_alpha_dot =
         means->omega + (last->bead_angle - first->bead_angle) / time; /* alpha = Phi + drive phase */
     means->mean_phi_dot = (last->moment_angle - first->moment_angle) / time;
-    means->mean_nz = mean(first, last, FST_Q_N_Z);
+    means->mean_nz = fst_mean_between(first, last, FST_Q_N_Z);
 }
 
 /* Error of a mean whose blocks drift the same way: the distance to where a geometric series through the means
@@ -96,10 +88,9 @@ static double approach_error(const double *blocks, int count)
     return halves[1] < 0.5 * halves[0] ? HAIR * (halves[0] + halves[1]) : 0.0;
 }
 
-/* Error of a mean from the blocks between the kept marks: their scatter, or what is left of a drift, or what it
- * is at least, whichever is largest; `pick` is the block's mean. */
-static double error_of(const fst_window *w, const fst_mark_series *series, double least,
-                       double (*pick)(const fst_ramp_point *))
+/* Error of a mean from the blocks between the kept marks: their scatter, or the rest of a drift, or what it
+ * is at least, whichever is largest; `pick` is the offset of the block's mean. */
+static double error_of(const fst_window *w, const fst_mark_series *series, double least, size_t pick)
 {
     const int count = series->count - 1;
     if (count < 2)
@@ -108,7 +99,7 @@ static double error_of(const fst_window *w, const fst_mark_series *series, doubl
     for (int i = 0; i < count; ++i) {
         fst_ramp_point means;
         fst_means_between(w, &series->kept[i], &series->kept[i + 1], &means);
-        blocks[i] = pick(&means);
+        memcpy(&blocks[i], (const char *)&means + pick, sizeof *blocks);
         sum += blocks[i] - blocks[0];
         sum2 += (blocks[i] - blocks[0]) * (blocks[i] - blocks[0]);
     }
@@ -130,8 +121,8 @@ static unseen unseen_of(const fst_window *w, const fst_mark_series *series, cons
     const double blocks = fmax(series->count - 1, 1.0), omega = w->groups.omega;
     const double range = w->greatest_bead_angle - w->least_bead_angle;
     unseen cut = {PART * result->std_r / blocks,
-                  PART * deviation(mean(first, last, FST_Q_N_ZZ), result->mean_nz) / blocks,
-                  fmin(range, 0.5 * FST_TWO_PI) / time_between(first, last)};
+                  PART * deviation(fst_mean_between(first, last, FST_Q_N_ZZ), result->mean_nz) / blocks,
+                  fmin(range, 0.5 * FST_TWO_PI) / fst_time_between(first, last)};
     if (series == &w->periods)
         return cut;
     double farthest = 0.0; /* a block's motion differs as much as the states at its ends */
@@ -141,21 +132,6 @@ static unseen unseen_of(const fst_window *w, const fst_mark_series *series, cons
     cut.nz = fmin(cut.nz, farthest / blocks);
     cut.alpha_dot = fmin(cut.alpha_dot, omega * farthest / blocks);
     return cut;
-}
-
-static double pick_r(const fst_ramp_point *p)
-{
-    return p->mean_r;
-}
-
-static double pick_alpha_dot(const fst_ramp_point *p)
-{
-    return p->mean_alpha_dot;
-}
-
-static double pick_nz(const fst_ramp_point *p)
-{
-    return p->mean_nz;
 }
 
 /* Greatest defect of dE = (drive - friction) dt between kept marks, over the work done in the window, or over
@@ -219,8 +195,9 @@ static double tilt(const fst_mark *first, const fst_mark *last)
     double covariance[3][3], normal[3];
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
-            covariance[i][j] = mean(first, last, second[i][j]) -
-                               mean(first, last, FST_Q_N_R + i) * mean(first, last, FST_Q_N_R + j);
+            covariance[i][j] =
+                fst_mean_between(first, last, second[i][j]) -
+                fst_mean_between(first, last, FST_Q_N_R + i) * fst_mean_between(first, last, FST_Q_N_R + j);
     if (!(covariance[0][0] + covariance[1][1] + covariance[2][2] > 1e-12))
         return NAN; /* n stands still: no plane */
     least_eigenvector(covariance, normal);
@@ -231,7 +208,8 @@ static double tilt(const fst_mark *first, const fst_mark *last)
 int fst_never_slips(const fst_window *w, const fst_mark_series *series)
 {
     const fst_mark *first = &series->kept[0], *last = &series->latest;
-    return w->dry && last->captures == first->captures && mean(first, last, FST_Q_STICKING) > 1.0 - ROUNDING;
+    return w->dry && last->captures == first->captures &&
+           fst_mean_between(first, last, FST_Q_STICKING) > 1.0 - ROUNDING;
 }
 
 /* What a contact with dry friction does, which slips and sticks. */
@@ -239,15 +217,16 @@ static void fill_contact(const fst_window *w, const fst_mark_series *series, fst
 {
     const fst_mark *first = &series->kept[0], *last = &series->latest;
     const int64_t captures = last->captures - first->captures;
-    const double sticking = mean(first, last, FST_Q_STICKING), slip2 = mean(first, last, FST_Q_SLIP2);
+    const double sticking = fst_mean_between(first, last, FST_Q_STICKING),
+                 slip2 = fst_mean_between(first, last, FST_Q_SLIP2);
     result->never_slips = fst_never_slips(w, series);
     result->sticking = result->never_slips ? 1.0 : sticking;
-    result->mean_rolling_power = mean(first, last, FST_Q_ROLLING_POWER);
-    result->mean_pivoting_power = mean(first, last, FST_Q_PIVOTING_POWER);
+    result->mean_rolling_power = fst_mean_between(first, last, FST_Q_ROLLING_POWER);
+    result->mean_pivoting_power = fst_mean_between(first, last, FST_Q_PIVOTING_POWER);
     if (!result->never_slips && slip2 > 0)
         result->effective_rate = result->mean_friction_power / slip2;
-    result->flying = mean(first, last, FST_Q_FLYING);
-    result->mean_impact_power = (last->impact_loss - first->impact_loss) / time_between(first, last);
+    result->flying = fst_mean_between(first, last, FST_Q_FLYING);
+    result->mean_impact_power = (last->impact_loss - first->impact_loss) / fst_time_between(first, last);
     if (series == &w->returns.marks && !w->returns.of_cycles)
         result->impacts_per_return = (double)(last->impacts - first->impacts) / (double)(series->offered - 1);
     if (series == &w->returns.marks && !w->returns.of_cycles)
@@ -268,36 +247,39 @@ void fst_means_fill(const fst_window *w, const fst_mark_series *series, const fs
     result->mean_nz = means.mean_nz;
     const unseen lacks = unseen_of(w, series, result);
     const double lost = LOST * params->run_rtol;
-    result->mean_r_error = error_of(w, series, fmax(lacks.r, lost * fabs(means.mean_r)), pick_r);
-    result->mean_alpha_dot_error = error_of(w, series, fmax(lacks.alpha_dot, lost * g->omega), pick_alpha_dot);
-    result->mean_nz_error = error_of(w, series, fmax(lacks.nz, lost), pick_nz);
+    result->mean_r_error =
+        error_of(w, series, fmax(lacks.r, lost * fabs(means.mean_r)), offsetof(fst_ramp_point, mean_r));
+    result->mean_alpha_dot_error =
+        error_of(w, series, fmax(lacks.alpha_dot, lost * g->omega), offsetof(fst_ramp_point, mean_alpha_dot));
+    result->mean_nz_error = error_of(w, series, fmax(lacks.nz, lost), offsetof(fst_ramp_point, mean_nz));
     if (result->mean_nz_error > 1.0 + fabs(means.mean_nz)) /* n is a unit vector */
         result->mean_nz_error = 1.0 + fabs(means.mean_nz);
-    result->mean_b = mean(first, last, FST_Q_B);
-    result->std_b = deviation(mean(first, last, FST_Q_B2), result->mean_b - w->quadrature.sums.b_reference);
-    result->mean_friction_power = mean(first, last, FST_Q_FRICTION_POWER);
-    result->mean_drive_power = mean(first, last, FST_Q_DRIVE_POWER);
+    result->mean_b = fst_mean_between(first, last, FST_Q_B);
+    result->std_b =
+        deviation(fst_mean_between(first, last, FST_Q_B2), result->mean_b - w->quadrature.sums.b_reference);
+    result->mean_friction_power = fst_mean_between(first, last, FST_Q_FRICTION_POWER);
+    result->mean_drive_power = fst_mean_between(first, last, FST_Q_DRIVE_POWER);
     result->energy_residual = energy_residual(series, last);
     if (w->dry)
         fill_contact(w, series, result);
-    result->rms_slip = sqrt(mean(first, last, FST_Q_SLIP2));
+    result->rms_slip = sqrt(fst_mean_between(first, last, FST_Q_SLIP2));
     result->tilt_deg = tilt(first, last);
     const double impulse = last->impulse - first->impulse;
-    double load = mean(first, last, FST_Q_LOAD);
+    double load = fst_mean_between(first, last, FST_Q_LOAD);
     if (impulse > 0)
-        load += impulse / time_between(first, last);
+        load += impulse / fst_time_between(first, last);
     if (g->gravity > 0)
         result->mean_load_weights = load / g->gravity;
     result->dry_friction_rate = params->friction_mu * load / (g->eps * g->omega) / g->time_unit;
-    result->eq21_centrifugal = mean(first, last, FST_Q_CENTRIFUGAL);
-    result->eq21_magnetic = mean(first, last, FST_Q_FORCE_R);
-    result->eq21_magnetic_printed = mean(first, last, FST_Q_FORCE_R_PRINTED);
-    result->eq21_friction = -mean(first, last, FST_Q_SLIP_R);
-    result->eq21_spin = mean(first, last, FST_Q_SPIN_TERM);
-    result->eq22_magnetic = mean(first, last, FST_Q_TORQUE_ALPHA);
-    result->eq22_friction = -mean(first, last, FST_Q_R_SLIP_ALPHA);
-    result->eq23_magnetic = mean(first, last, FST_Q_EQ23);
-    result->mean_v_alpha = mean(first, last, FST_Q_SLIP_ALPHA);
+    result->eq21_centrifugal = fst_mean_between(first, last, FST_Q_CENTRIFUGAL);
+    result->eq21_magnetic = fst_mean_between(first, last, FST_Q_FORCE_R);
+    result->eq21_magnetic_printed = fst_mean_between(first, last, FST_Q_FORCE_R_PRINTED);
+    result->eq21_friction = -fst_mean_between(first, last, FST_Q_SLIP_R);
+    result->eq21_spin = fst_mean_between(first, last, FST_Q_SPIN_TERM);
+    result->eq22_magnetic = fst_mean_between(first, last, FST_Q_TORQUE_ALPHA);
+    result->eq22_friction = -fst_mean_between(first, last, FST_Q_R_SLIP_ALPHA);
+    result->eq23_magnetic = fst_mean_between(first, last, FST_Q_EQ23);
+    result->mean_v_alpha = fst_mean_between(first, last, FST_Q_SLIP_ALPHA);
     result->window_periods = fst_twofold_difference(last->t, first->t) / w->period;
     fst_extremes_fill(w->extremes, g->gravity, result);
 }

@@ -4,7 +4,7 @@
 
 #include "observe/window.h"
 
-/* Means between two marks of a window: what a row of a ramp tells, and a block of a series. */
+/* Means between two marks of a window: a row of a ramp, and a block of a series. */
 void fst_means_between(const fst_window *w, const fst_mark *first, const fst_mark *last, fst_ramp_point *means);
 
 /* Whether a contact with dry friction stuck all the time between the first and the latest mark of a series. */

@@ -104,20 +104,20 @@ static points look(const pieces *p, double x, double state[FST_STATE_SIZE])
 /* Add the integrands at the fraction x with a weight. */
 static void add(pieces *p, double x, double weight)
 {
-    const fst_coefficients_double *c = &p->flow->step.context.coefficients;
+    const fst_world_double *c = fst_flow_world(p->flow);
     const double omega = p->flow->step.omega;
-    double state[FST_STATE_SIZE], slope[FST_STATE_SIZE], integrands[FST_Q_COUNT];
+    double slope[FST_STATE_SIZE], integrands[FST_Q_COUNT];
+    fst_motion_double at;
     fst_pull_double pull;
     fst_seen_double seen;
-    (void)look(p, x, state);
-    fst_rhs_double(c, omega, state, slope, &pull);
-    fst_see_double(c, omega, state, &pull, &seen);
-    fst_integrands_double(c, state, &pull, &seen, p->r_reference, 0.0, integrands);
+    fst_flow_motion_at(p->flow, x, &at);
+    fst_rhs_double(c, &at.modes, omega, at.numbers, slope, &pull);
+    fst_see_double(c, &at.modes, omega, at.numbers, &pull, &seen);
+    fst_integrands_double(c, &at.modes, at.numbers, &pull, &seen, p->r_reference, 0.0, integrands);
     /* -a_r: in the magnet's frame the velocity turns besides, by -omega v_alpha. */
     integrands[FST_Q_CENTRIFUGAL] =
         omega * seen.v_alpha - slope[FST_VX] * seen.cos_bead_angle - slope[FST_VY] * seen.sin_bead_angle;
-    if (c->kinds.paced)
-        weight *= fst_pace_double(c, state);
+    weight *= fst_pace_double(c, &at.modes, at.numbers);
     for (int i = 0; i < FST_Q_COUNT; ++i)
         p->sums[i] += weight * integrands[i];
 }

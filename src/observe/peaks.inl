@@ -17,7 +17,7 @@
  * parabola that rises into the step, p f2 > f1/p, has its vertex there.  The path is no parabola, and the
  * places within the step lie on it only roughly; r even has a corner where the bead passes the axis.  So
  * PEAK_RISES times the rise and PEAK_FALL of the fall to the neighbours are added to the best place, and a step
- * is looked at where that exceeds the record so far (a third of both is enough in tests/test_extremes.c).
+ * is looked at where that exceeds the record so far (a third of both is enough in tests/observe/test_extremes.c).
  */
 #define PEAK_RISES 3.0
 #define PEAK_FALL 0.3

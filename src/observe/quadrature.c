@@ -26,7 +26,7 @@
 static void see_place(const fst_flow *flow, int place, fst_seen_double *seen)
 {
     const fst_bead_step_double *s = &flow->step;
-    fst_see_double(&s->context.coefficients, fst_flow_drive_at_place(flow, place), FST_PATH_STATE(s, place),
+    fst_see_double(FST_WORLD(s), FST_MODES(s), fst_flow_drive_at_place(flow, place), FST_PATH_STATE(s, place),
                    FST_PATH_PULL(s, place), seen);
 }
 
@@ -114,7 +114,7 @@ static void make_dense(fst_quadrature *q, fst_flow *flow)
     for (int place = FST_PATH_PLACES; place < FST_DENSE_PLACES; ++place) {
         fst_seen_double seen;
         see_place(flow, place, &seen);
-        fst_integrands_double(&s->context.coefficients, FST_PATH_STATE(s, place), FST_PATH_PULL(s, place),
+        fst_integrands_double(FST_WORLD(s), FST_MODES(s), FST_PATH_STATE(s, place), FST_PATH_PULL(s, place),
                               &seen, q->sums.r_reference, q->sums.b_reference,
                               q->between[place - FST_PATH_PLACES]);
         fst_pace_integrands_double(s, place, FST_Q_COUNT, q->between[place - FST_PATH_PLACES]);

@@ -38,11 +38,6 @@ void fst_returns_begin(fst_returns *r)
     fst_marks_begin(&r->marks);
 }
 
-void fst_returns_break(fst_returns *r)
-{
-    r->since_break = 0;
-}
-
 /* Alternating halves in one direction are what regular turning looks like. */
 static void judge_alternation(fst_returns *r, int half, int direction)
 {

@@ -12,7 +12,7 @@ typedef struct fst_returns {
     int last_half;       /* sign of Y at the last crossing */
     int last_direction;  /* sign of Phi' there */
     int irregular;       /* a crossing broke the alternation of halves or the direction */
-    int64_t since_break; /* crossings since the last break */
+    int64_t since_break; /* crossings since the last break; 0: a state was changed from outside */
     double section[3]
                   [FST_STATE_SIZE]; /* states at the latest crossings, the last one first, on the side Y > 0 */
     int crossed;                    /* the last step holds a crossing: `crossing` */
@@ -33,9 +33,6 @@ void fst_returns_step(fst_returns *r, const fst_span *span, fst_quadrature *q, f
 
 /* Whether a crossing in the flow's last step, should there be one, is marked with its integrals. */
 int fst_returns_need_integrals(const fst_returns *r, const fst_span *span, const fst_flow *flow);
-
-/* Alternation and distances are counted from the next crossing on: the state was changed from outside. */
-void fst_returns_break(fst_returns *r);
 
 /* Whether Phi turns regularly: halves alternated and the direction was kept, at six crossings or more, and the
  * turning did not stop within the window, which has come to the time `now`. */

@@ -7,7 +7,7 @@
 enum { FST_SWINGS_PAST = 8 }; /* maxima of r that a cycle may have */
 
 typedef struct fst_swings {
-    double noise;                                 /* a slower motion is not told from the integrator's errors */
+    double noise;                                 /* a slower motion may be the integrator's errors */
     int seen;                                     /* of those below, the first so many are known */
     double past[FST_SWINGS_PAST][FST_STATE_SIZE]; /* states at the latest maxima of r, the last one first */
     int maxima;  /* of r in a cycle; 0: not known yet, and every maximum is looked at */
@@ -25,7 +25,7 @@ void fst_swings_pass(fst_swings *s, double speed);
 /* Locate the maximum in the flow's last step, and mark it. */
 void fst_swings_look(fst_swings *s, fst_quadrature *q, fst_flow *flow);
 
-/* Whether the marks tell of a window from `from` to `now`: there are enough, over most of it. */
+/* Whether the marks represent a window from `from` to `now`: there are enough, over most of it. */
 int fst_swings_cover(const fst_swings *s, double from, double now);
 
 #endif

@@ -27,7 +27,7 @@ void fst_window_begin(fst_window *w, const fst_span *span, double period, const 
     w->span = *span;
     w->period = period;
     w->groups = flow->groups;
-    w->dry = flow->step.context.coefficients.kinds.dry;
+    w->dry = fst_flow_world(flow)->kinds.dry;
     fst_quadrature_begin(&w->quadrature, flow);
     fst_extremes_begin(w->extremes);
     fst_returns_begin(&w->returns);
@@ -35,11 +35,6 @@ void fst_window_begin(fst_window *w, const fst_span *span, double period, const 
     fst_swings_begin(&w->swings, flow->rtol);
     w->least_bead_angle = INFINITY;
     w->greatest_bead_angle = -INFINITY;
-}
-
-void fst_window_mark(fst_window *w, fst_flow *flow, double x, fst_mark *mark)
-{
-    fst_mark_take(mark, &w->quadrature, flow, x, 1);
 }
 
 const fst_mark_series *fst_window_series(const fst_window *w, fst_twofold now)

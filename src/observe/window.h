@@ -57,14 +57,11 @@ static inline int fst_window_is_bounded(const fst_window *w)
     return w->greatest_bead_angle - w->least_bead_angle <= FST_TWO_PI;
 }
 
-/* Snapshot at the fraction x of the flow's last step. */
-void fst_window_mark(fst_window *w, fst_flow *flow, double x, fst_mark *mark);
-
 /* The parts of fst_window_step(), for lanes, which know what a step may hold and add up integrals themselves.
  */
 
 /* All but the integrals, which are in w->quadrature already where a mark needs them; `seek_extremes`: else they
- * are located elsewhere and offered (extremes.h). */
+ * are located by others and offered (extremes.h). */
 void fst_window_look(fst_window *w, fst_flow *flow, int seek_extremes);
 
 /* Marks of the periods that end in the flow's last step.  Where they need no integrals, the flow's clock is all

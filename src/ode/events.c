@@ -51,27 +51,30 @@ double fst_map_function(const fst_flow *flow, const double *state, const fst_pul
 double fst_load_function(const fst_flow *flow, const double *state, const fst_pull_double *p)
 {
     (void)state;
-    if (flow->step.context.coefficients.kinds.flies)
+    if (fst_flow_world(flow)->kinds.flies)
         return 1.0; /* a bead that flies is no event for who follows it */
-    return fst_load_double(&flow->step.context.coefficients, p->force);
+    return fst_load_double(fst_flow_world(flow), p->force);
 }
 
 double fst_flow_function_at(fst_flow *flow, double x, fst_state_function function)
 {
     if (x == 1.0)
         return function(flow, flow->step.end, FST_PATH_PULL(&flow->step, FST_PATH_END));
-    double state[FST_STATE_SIZE];
     if (function == fst_section_function || function == fst_radial_function) {
-        const int looked_at = function == fst_section_function ? 1 : 4; /* n need not be normalised for these */
-        fst_flow_make_dense(flow);
-        fst_bead_evaluate_dense_double(looked_at, &flow->step.dense[0][FST_X], FST_STATE_SIZE, x,
-                                       &state[FST_X]);
-        return function(flow, state, NULL);
+        double place[4]; /* n need not be normalised for these */
+        fst_flow_components_at(flow, x, FST_X, function == fst_section_function ? 1 : 4, place);
+        return function(flow, place, NULL);
     }
-    fst_flow_at(flow, x, state);
+    fst_motion_double motion;
     fst_pull_double p;
-    fst_magnetic_pull_double(&flow->step.context.coefficients, state, &p);
-    return function(flow, state, &p);
+    fst_flow_motion_at(flow, x, &motion);
+    if (flow->step.context.outside) {
+        double unused[3];
+        fst_outside_pull(&flow->step.context, motion.numbers, &p, unused);
+    } else {
+        fst_magnetic_pull_double(fst_flow_world(flow), &motion.modes, motion.numbers, &p);
+    }
+    return function(flow, motion.numbers, &p);
 }
 
 void fst_flow_path_range(const fst_flow *flow, fst_state_function function, double *least, double *greatest)

@@ -1,39 +1,49 @@
-/* flow.h - one trajectory of the bead, step by step: what fst_flow is made of (flow.inl tells how it goes). */
+/* flow.h - one trajectory of the bead, step by step: what fst_flow is made of (flow.inl has the scheme). */
 #ifndef FST_ODE_FLOW_H
 #define FST_ODE_FLOW_H
 
+#include <stdatomic.h>
 #include <string.h>
 
-#include "base/compensated.h"
 #include "base/winding.h"
-#include "model/model.h"
+#include "model/drive.h"
 
+#include "ode/outside.h"
+#define STEP_OUTSIDE
 #include "ode/bead_step.inl"
+#undef STEP_OUTSIDE
 #include "ode/path.inl"
 #include "ode/paced.inl"
 #include "ode/step_control.inl"
 
-/* The contact of a bead under a law with modes (contact.c). */
+/* Half of the contact of a bead under a law with modes: its slip, or its rotation (automaton.inl). */
+typedef struct fst_part_state {
+    int next;             /* the mode that begins with the next step; -1: the mode goes on */
+    fst_twofold released; /* when the last motion began that was not free at once, */
+    double free_at;       /* the speed at which it is, */
+    double free_by;       /* and the time after which it usually is */
+} fst_part_state;
+
 typedef struct fst_contact_state {
-    int next_mode;                              /* begins with the next step; -1: the mode goes on */
-    int next_roll;                              /* and that of rolling resistance */
+    fst_part_state slip, roll;
+    double proposal[FST_MODES][FST_ROLL_MODES]; /* size of the next step in each pair of modes */
     int64_t captures;                           /* slips that came to rest before the last step */
-    fst_twofold released;                       /* when the last onset began, */
-    double slips_from;                          /* and the slip at which it is said to slip */
-    double proposal[FST_MODES][FST_ROLL_MODES]; /* size of the next step in each mode */
-    double rolls_from;         /* the rotation at which a bead that starts to roll is said to roll, */
-    double rolls_by;           /* the time after which it usually does, */
-    fst_twofold roll_released; /* since then */
-    int64_t impacts;           /* of a bead that flew, the impulses that held it up, and the energy they took */
+    int64_t impacts; /* of a bead that flew, the impulses that held it up, and the energy they took */
     double impulse, impact_loss;
-    double clock[8]; /* dense output of the time over the last step, */
-    int has_clock;   /* once formed */
 } fst_contact_state;
 
 /* The error of a bead's step over its tolerance. */
 double fst_bead_error(const fst_bead_step_double *s, double rtol, const double *atol);
 
+/* The derivatives of a bead's numbers by theta, outside any step. */
+static inline void fst_bead_derivative(const fst_bead_step_double *s, const double *y, double *dy)
+{
+    fst_pull_double unused;
+    fst_bead_rhs_double(&s->context, s->omega, y, dy, &unused);
+}
+
 #define FLOW_DIM FST_STATE_SIZE
+#define FLOW_NUMBERS FST_NUMBERS
 #define FLOW_TAG fst_flow
 #define FLOW_NAME(name) fst_bead_flow_##name
 #define FLOW_STEP(name) fst_bead_##name##_double
@@ -41,32 +51,36 @@ double fst_bead_error(const fst_bead_step_double *s, double rtol, const double *
 #define FLOW_FINISH(s) fst_finish_step_double(s)
 #define FLOW_NEXT(s, omega) fst_next_step_double(s, omega)
 #define FLOW_PROJECT(y) ((void)fst_renormalise_double(y))
-#define FLOW_DERIVATIVE(s, y, dy)                                                                              \
-    do {                                                                                                       \
-        fst_pull_double unused;                                                                                \
-        fst_rhs_double(&(s)->context.coefficients, (s)->omega, y, dy, &unused);                                \
-        const double pace_here = fst_pace_double(&(s)->context.coefficients, y);                               \
-        for (int component = 0; component < FST_STATE_SIZE; ++component)                                       \
-            (dy)[component] *= pace_here;                                                                      \
-    } while (0)
+#define FLOW_DERIVATIVE(s, y, dy) fst_bead_derivative(s, y, dy)
 #define FLOW_ERROR(flow) fst_bead_error(&(flow)->step, (flow)->rtol, (flow)->atol)
-/* What a bead's flow has besides: the angle of the drive at ramp_start; Phi at step.y and at step.end; and
- * where the caller of fst_flow_advance() is: how far into the last step (0 to 1), the time there (where that
- * was asked for), the sign of X there (0 before the first step), and the bounds (1 << FST_STOP_*) that were
- * reported and from which the bead has not come back; the caller's progress; and the contact, under a law with
- * modes. */
+/* What a bead's flow has besides: where the caller of fst_flow_next() is, how far into the last step (0 to
+ * 1), the time there (where that was asked for), the sign of X there (0 before the first step), and the bounds
+ * that were reported and from which the bead has not come back (FST_AT_*); what began at step.end and is not
+ * reported yet (FST_AT_*); the caller's progress; whether fst_flow_next() is at work; Phi at step.y and at
+ * step.end; and the contact, under a law with modes. */
 #define FLOW_MEMBERS                                                                                           \
     fst_groups groups;                                                                                         \
-    fst_twofold phase_start;                                                                                   \
     fst_winding bead_angle_start, bead_angle;                                                                  \
     double cursor;                                                                                             \
     fst_twofold cursor_time;                                                                                   \
     const fst_progress *progress;                                                                              \
+    atomic_int at_work;                                                                                        \
     int section_side;                                                                                          \
-    unsigned beyond;                                                                                           \
+    unsigned beyond, begun;                                                                                    \
     fst_contact_state contact;
 
 #include "ode/flow.inl"
+
+/* What never changes along the way, and the modes of the motion. */
+static inline const fst_world_double *fst_flow_world(const fst_flow *flow)
+{
+    return FST_WORLD(&flow->step);
+}
+
+static inline const fst_modes_double *fst_flow_modes(const fst_flow *flow)
+{
+    return FST_MODES(&flow->step);
+}
 
 /* Make one accepted step towards t_limit, forward or backward in time, landing on it exactly where it is in
  * reach. FST_STEP_UNDERFLOW, FST_NOT_FINITE: the flow stays at the end of its last good step. */
@@ -87,6 +101,12 @@ void fst_flow_make_dense(fst_flow *flow);
 
 /* The state at the fraction x of the last step, n renormalised; makes the dense output. */
 void fst_flow_at(fst_flow *flow, double x, double state[FST_STATE_SIZE]);
+
+/* The whole motion there. */
+void fst_flow_motion_at(fst_flow *flow, double x, fst_motion_double *motion);
+
+/* Components `first` to `first` + count - 1 of it, as the dense output has them. */
+void fst_flow_components_at(fst_flow *flow, double x, int first, int count, double *out);
 
 /* Phi at the fraction x of the last step. */
 fst_winding fst_flow_bead_angle(fst_flow *flow, double x);
@@ -119,34 +139,31 @@ void fst_contact_end_step(fst_flow *flow, double t_limit);
  * end of the way, and the mode is not looked for. */
 int fst_contact_look_ahead(fst_flow *flow, double t_limit, double *end);
 
-/* Begin the modes that follow those of the last step, if one of them is over. */
+/* Whether the modes of the last step are over; begin the ones that follow, if so. */
+static inline int fst_contact_changes(const fst_flow *flow)
+{
+    return flow->contact.slip.next >= 0 || flow->contact.roll.next >= 0;
+}
 void fst_contact_begin_next(fst_flow *flow);
 
-/* Begin the mode onset in a state, at the release of a bead that stuck (onset.c); returns the time that it may
- * last, over the usual one. */
-double fst_contact_begin_onset(fst_flow *flow, const double *state);
-
-/* Begin to roll in a state, against a resistance that held the bead so far: how strong it is, and how fast the
- * push outgrows it and changes, as rates of W_h. */
-void fst_contact_begin_rolling(fst_flow *flow, const double *state, double *strength, double *growth,
-                               double *turning);
-
-/* Steps under a law with modes (pace.c): the mode of the last step; the time that it took; the fraction at a
+/* Steps under a law with modes (pace.c): the modes of the last step; the time that it took; the fraction at a
  * time since its start, and the other way round. */
-int fst_contact_mode(const fst_flow *flow);
-int fst_contact_roll(const fst_flow *flow);
+static inline int fst_contact_mode(const fst_flow *flow)
+{
+    return (int)fst_flow_modes(flow)->contact;
+}
+
+static inline int fst_contact_roll(const fst_flow *flow)
+{
+    return (int)fst_flow_modes(flow)->rolling;
+}
+
 double fst_contact_elapsed(const fst_flow *flow);
 double fst_contact_fraction(fst_flow *flow, double since_start);
 double fst_contact_time(fst_flow *flow, double x);
 
 /* Let the drive change at this rate from now on; the flow must be at the end of a step. */
 void fst_flow_begin_ramp(fst_flow *flow, double rate);
-
-/* Drive at a time (on the ramp: not before its start). */
-double fst_flow_omega(const fst_flow *flow, fst_twofold t);
-
-/* Turns of the magnet since t = 0: whole turns, and the rest in [0, 1). */
-void fst_flow_drive_turns(const fst_flow *flow, fst_twofold t, double *whole, double *rest);
 
 /* A scalar function of the state along a trajectory, for events and extremes. */
 typedef double (*fst_state_function)(const fst_flow *flow, const double *state, const fst_pull_double *p);

@@ -15,9 +15,9 @@
  *
  * A state has FLOW_DIM numbers, a constant of the unit that includes this file.  One bead has ten (flow.h); a
  * unit for several beads includes the body once more, with its own step and its own dimension.  The including
- * file brings base/twofold.inl, step_control.inl and the step's body and defines
+ * file brings model/drive.inl, step_control.inl and the step's body and defines
  *
- * - FLOW_DIM, the dimension;
+ * - FLOW_DIM, the dimension, and FLOW_NUMBERS, if a step carries further numbers that are no state;
  * - FLOW_TAG, the tag of the struct, and FLOW_NAME(name), how functions are named;
  * - FLOW_STEP(name), how the step's body names what it defines (STEP_NAME there);
  * - FLOW_BEGIN(s): evaluate the first stage at s->y;
@@ -29,18 +29,19 @@
  * over its tolerance;
  * - FLOW_MEMBERS: what else belongs to a flow.
  *
- * What changes at an instant.  Between two events the right-hand side is smooth, and everything that it depends
- * on besides the state lies in step.context, constant within a step.  The mode of a contact (a bead that sticks
- * or slides) is there.  It changes between two steps: contact.c ends a step where a mode ends, changes the
- * mode, and restart() evaluates the first stage anew under the new one.
+ * What changes at an instant.  Between two events the right-hand side is smooth.  Besides the numbers it
+ * depends on the world, which never changes, and on the modes of the motion, which are constant within a step
+ * (a bead that sticks or slides).  Modes change between two steps: contact.c ends a step where a mode ends,
+ * changes the mode, and restart() evaluates the first stage anew under the new one.
  *
  *     step.y o-----___            mode 0
  *                     ---o        <- the event: the step is made anew, as long as up to here
  *                         \
  *                  mode 1  `---___o step.end
- *
- * Smooth variables of a law join the state: they raise FLOW_DIM.
  */
+#ifndef FLOW_NUMBERS
+#define FLOW_NUMBERS FLOW_DIM
+#endif
 #ifndef FLOW_ERROR
 #define FLOW_ERROR(flow) FLOW_STEP(step_error)(&(flow)->step, (flow)->rtol, (flow)->atol)
 #endif
@@ -50,20 +51,13 @@ typedef struct FLOW_TAG {
     REAL rtol, atol[FLOW_DIM];
     FN(step_control) control;
     FN(twofold) t_start, t; /* times of step.y and step.end */
-    REAL omega_start;       /* drive at ramp_start, from where it changes at the rate step.ramp */
-    FN(twofold) ramp_start; /* when that began */
-    int has_step;           /* a step was made: step.end is the state, else step.y */
-    int has_dense;          /* step.dense belongs to the last step */
-    REAL norm_drift;        /* sum of what FLOW_FINISH() returned */
+    FN(drive) drive;
+    int has_step;    /* a step was made: step.end is the state, else step.y */
+    int has_dense;   /* step.dense belongs to the last step */
+    REAL norm_drift; /* sum of what FLOW_FINISH() returned */
     uint64_t rhs_calls, accepted, rejected;
     FLOW_MEMBERS
 } FLOW_NAME(type);
-
-/* Drive at a time (on the ramp: not before its start). */
-static inline REAL FLOW_NAME(omega)(const FLOW_NAME(type) * flow, FN(twofold) t)
-{
-    return flow->omega_start + flow->step.ramp * FN(twofold_difference)(t, flow->ramp_start);
-}
 
 /* Root mean square in units of the tolerance, the norm of the first step's size. */
 static inline REAL FLOW_NAME(scaled_norm)(const FLOW_NAME(type) * flow, const REAL *v)
@@ -81,9 +75,10 @@ static inline REAL FLOW_NAME(choose_first_size)(FLOW_NAME(type) * flow)
     FLOW_STEP(step) *s = &flow->step;
     const REAL slope = FLOW_NAME(scaled_norm)(flow, s->k[0]);
     const REAL trial = FN(first_trial)(FLOW_NAME(scaled_norm)(flow, s->y), slope);
-    REAL state[FLOW_DIM], next[FLOW_DIM];
+    REAL state[FLOW_NUMBERS], next[FLOW_NUMBERS];
+    memcpy(state, s->y, sizeof state);
     for (int i = 0; i < FLOW_DIM; ++i)
-        state[i] = s->y[i] + trial * s->k[0][i];
+        state[i] += trial * s->k[0][i];
     FLOW_DERIVATIVE(s, state, next);
     flow->rhs_calls += 1;
     for (int i = 0; i < FLOW_DIM; ++i)
@@ -101,11 +96,12 @@ static inline void FLOW_NAME(stand)(FLOW_NAME(type) * flow)
 }
 
 /* Begin at step.y, with the tolerances, the drive and step.context set and everything else zero.  A first size
- * or a greatest one of 0 is none. */
+ * or a greatest one of 0 counts as not given. */
 static inline void FLOW_NAME(begin)(FLOW_NAME(type) * flow, REAL first_size, REAL greatest_size)
 {
     FLOW_STEP(step) *s = &flow->step;
-    s->omega = FLOW_NAME(omega)(flow, flow->t);
+    s->omega = FN(drive_rate)(&flow->drive, flow->t);
+    s->ramp = flow->drive.ramp;
     FLOW_NAME(stand)(flow);
     memcpy(s->end, s->y, sizeof s->end);
     flow->control = FN(begin_control)(first_size > 0 ? first_size : FLOW_NAME(choose_first_size)(flow),
@@ -117,7 +113,7 @@ static inline void FLOW_NAME(restart)(FLOW_NAME(type) * flow)
 {
     FLOW_STEP(step) *s = &flow->step;
     memcpy(s->y, s->end, sizeof s->y);
-    s->omega = FLOW_NAME(omega)(flow, flow->t);
+    s->omega = FN(drive_rate)(&flow->drive, flow->t);
     FLOW_NAME(stand)(flow);
 }
 
@@ -137,7 +133,7 @@ static inline void FLOW_NAME(prepare)(FLOW_NAME(type) * flow)
 {
     if (!flow->has_step)
         return;
-    FLOW_NEXT(&flow->step, FLOW_NAME(omega)(flow, flow->t));
+    FLOW_NEXT(&flow->step, FN(drive_rate)(&flow->drive, flow->t));
     flow->has_step = 0;
 }
 
@@ -155,9 +151,7 @@ static inline int FLOW_NAME(try_until_good)(FLOW_NAME(type) * flow, REAL rest)
         const REAL error = FLOW_ERROR(flow), factor = FN(step_factor)(error);
         if (error <= R(1.0)) {
             flow->norm_drift += FLOW_FINISH(s);
-            FN(accept_step)
-            (control, REAL_EVERYWHERE, FN(factor_in_use)(control, REAL_EVERYWHERE, factor),
-             FST_HOLD_AFTER_REJECTION);
+            FN(accept_step)(control, REAL_EVERYWHERE, factor, FST_HOLD_AFTER_REJECTION);
             return 1;
         }
         flow->rejected += 1;
@@ -193,8 +187,9 @@ static inline void FLOW_NAME(form_dense)(FLOW_NAME(type) * flow)
 /* The state at the fraction x of the last step. */
 static inline void FLOW_NAME(state_at)(FLOW_NAME(type) * flow, REAL x, REAL state[FLOW_DIM])
 {
+    enum { ROW = sizeof flow->step.y / sizeof(REAL) };
     FLOW_NAME(form_dense)(flow);
-    FLOW_STEP(evaluate_dense)(FLOW_DIM, &flow->step.dense[0][0], FLOW_DIM, x, state);
+    FLOW_STEP(evaluate_dense)(FLOW_DIM, &flow->step.dense[0][0], ROW, x, state);
     FLOW_PROJECT(state);
 }
 
@@ -216,6 +211,7 @@ static inline void FLOW_NAME(cut)(FLOW_NAME(type) * flow, REAL x)
 }
 
 #undef FLOW_DIM
+#undef FLOW_NUMBERS
 #undef FLOW_TAG
 #undef FLOW_NAME
 #undef FLOW_STEP

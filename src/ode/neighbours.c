@@ -21,19 +21,18 @@
  *     slip -> stick     |V| has fallen to nothing in both at equal theta: what d still has of a slip is
  *                       taken out by the plate's impulse, and d - f dt goes on
  *     stick -> onset    f = w there: nothing happens (if static friction is hardly stronger: as below)
- *     onset -> slip     nor here
+ *     onset -> slip     nothing happens here either
  *     stick -> slip     static friction was stronger: f != w.  The neighbour lets go at another time, off by
  *                       dt = -Dg d/(Dg w), g being what static friction could still take: d + w dt goes on
  *     onset -> stick    the slip has come back to nothing at the rate s': dt = -ds/s', d + (w - f) dt goes on
  *
  * Where the plate resists rolling (ode/rest.c), its modes are the same with the rotation W_h in place of the
- * slip: rolls -> rests as slip -> stick, rests -> starts as stick -> onset.  Two things are more delicate
- * there:
+ * slip: rolls -> rests as slip -> stick, rests -> starts as stick -> onset.  Two things are more delicate there:
  *
  *     starts -> rolls   the rotation is so small that differences at equal theta would grow, to cancel against
- * f dt in the end; so the neighbours go on at equal rotations, dt = -d|W_h|/|W_h|' both at once      f changes
- * where the contact does, and with it what the resistance has to hold; so the modes that follow are asked of a
- * copy of the flow
+ *                       f dt in the end; so the neighbours go on at equal rotations, dt = -d|W_h|/|W_h|'
+ *     both at once      f changes where the contact does, and with it what the resistance has to hold; so the
+ *                       modes that follow are asked of a copy of the flow
  *
  * A bead at rest has no slip, and neither has any neighbour: nine directions become seven.  So a return that
  * sticks somewhere has two multipliers that are exactly zero.
@@ -59,27 +58,8 @@ static int differs(const fst_neighbours *b)
     return b->parameter >= 0 && !b->exact;
 }
 
-/* The numbers of the law that the motion itself sets (ode/contact.c). */
-static void take_numbers(fst_coulomb_double *to, const fst_coulomb_double *from)
-{
-    to->mode = from->mode;
-    to->lag = from->lag;
-    to->patch.slow_2 = from->patch.slow_2;
-}
-
-static void take_mode(fst_neighbours *b, const fst_coefficients_double *c)
-{
-    if (!c->kinds.paced || !differs(b))
-        return;
-    take_numbers(&b->below.law.coulomb, &c->law.coulomb);
-    take_numbers(&b->above.law.coulomb, &c->law.coulomb);
-    b->below.resistance.mode = b->above.resistance.mode = c->resistance.mode;
-    b->below.resistance.lag = b->above.resistance.lag = c->resistance.lag;
-}
-
 /* By how much v differs in a setup if the contact slips as it does in the motion: the slip depends on eps. */
-static void same_slip(const fst_coefficients_double *c, const fst_coefficients_double *other, const double *y,
-                      double by[2])
+static void same_slip(const fst_world_double *c, const fst_world_double *other, const double *y, double by[2])
 {
     double here[2], there[2];
     fst_slip_double(c, y, here);
@@ -89,8 +69,7 @@ static void same_slip(const fst_coefficients_double *c, const fst_coefficients_d
 }
 
 /* How v changes with the parameter at an unchanged slip. */
-static void at_same_slip(const fst_neighbours *b, const fst_coefficients_double *c, const double *y,
-                         double by[2])
+static void at_same_slip(const fst_neighbours *b, const fst_world_double *c, const double *y, double by[2])
 {
     double below[2], above[2];
     by[0] = by[1] = 0.0;
@@ -104,15 +83,15 @@ static void at_same_slip(const fst_neighbours *b, const fst_coefficients_double 
 
 /* d(state)/dtheta changes by this with the parameter, and the pace by *pace, at an unchanged slip: a slip that
  * is nearly nothing would not be one in a setup with another eps. */
-static void by_parameter(const fst_neighbours *b, const fst_coefficients_double *c, const double *y, double *by,
-                         double *pace)
+static void by_parameter(const fst_neighbours *b, const fst_world_double *c, const fst_modes_double *m,
+                         const double *y, double *by, double *pace)
 {
     memset(by, 0, FST_STATE_SIZE * sizeof *by);
     *pace = 0.0;
     if (b->parameter < 0)
         return;
     if (b->exact) {
-        const double here = fst_pace_double(c, y);
+        const double here = fst_pace_double(c, m, y);
         fst_rhs_by_omega_double(y, by);
         for (int i = 0; i < FST_STATE_SIZE; ++i)
             by[i] *= here;
@@ -120,15 +99,15 @@ static void by_parameter(const fst_neighbours *b, const fst_coefficients_double 
     }
     double rate[2][FST_STATE_SIZE], paces[2];
     for (int side = 0; side < 2; ++side) {
-        const fst_coefficients_double *other = side ? &b->above : &b->below;
+        const fst_world_double *other = side ? &b->above : &b->below;
         fst_pull_double unused;
-        double state[FST_STATE_SIZE], change[2];
+        double state[FST_NUMBERS], change[2];
         memcpy(state, y, sizeof state);
         same_slip(c, other, y, change);
         state[FST_VX] += change[0];
         state[FST_VY] += change[1];
-        paces[side] = fst_pace_double(other, state);
-        fst_rhs_double(other, other->omega, state, rate[side], &unused);
+        paces[side] = fst_pace_double(other, m, state);
+        fst_rhs_double(other, m, other->omega, state, rate[side], &unused);
     }
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         by[i] = (paces[1] * rate[1][i] - paces[0] * rate[0][i]) / b->spread;
@@ -136,7 +115,7 @@ static void by_parameter(const fst_neighbours *b, const fst_coefficients_double 
 }
 
 /* Neighbour `column` as the derivatives at an unchanged slip see it: all others differ by their start alone. */
-static void neighbour(const fst_neighbours *b, const fst_coefficients_double *c, const double *y, int column,
+static void neighbour(const fst_neighbours *b, const fst_world_double *c, const double *y, int column,
                       const double *d, double *seen)
 {
     double by[2];
@@ -149,7 +128,7 @@ static void neighbour(const fst_neighbours *b, const fst_coefficients_double *c,
 }
 
 /* How the slip differs in neighbour `column`. */
-static void slip_of(const fst_neighbours *b, const fst_coefficients_double *c, const double *y, int column,
+static void slip_of(const fst_neighbours *b, const fst_world_double *c, const double *y, int column,
                     double slip[2])
 {
     double seen[FST_STATE_SIZE];
@@ -158,15 +137,15 @@ static void slip_of(const fst_neighbours *b, const fst_coefficients_double *c, c
 }
 
 /* Take the slip out of all neighbours, as the plate's impulse does: the moment about the contact stays. */
-static void stop_slips(fst_neighbours *b, const fst_coefficients_double *c, const double *y)
+static void stop_slips(fst_neighbours *b, const fst_world_double *c, const double *y)
 {
     for (int column = 0; column < b->count; ++column) {
         double slip[2], *d = b->d[column];
         slip_of(b, c, y, column, slip);
-        d[FST_VX] -= 2.0 / 7.0 * slip[0];
-        d[FST_VY] -= 2.0 / 7.0 * slip[1];
-        d[FST_WX] -= 5.0 / (7.0 * c->eps) * slip[1];
-        d[FST_WY] += 5.0 / (7.0 * c->eps) * slip[0];
+        d[FST_VX] -= c->share * slip[0];
+        d[FST_VY] -= c->share * slip[1];
+        d[FST_WX] -= c->spin_up * slip[1];
+        d[FST_WY] += c->spin_up * slip[0];
         slip_of(b, c, y, column, slip); /* what rounding left */
         d[FST_VX] -= slip[0];
         d[FST_VY] -= slip[1];
@@ -174,36 +153,37 @@ static void stop_slips(fst_neighbours *b, const fst_coefficients_double *c, cons
 }
 
 /* Take the rotation out of all neighbours of a bead that rests; each keeps its slip. */
-static void stop_rolling(fst_neighbours *b, const fst_coefficients_double *c)
+static void stop_rolling(fst_neighbours *b, const fst_world_double *c)
 {
     for (int column = 0; column < b->count; ++column)
         fst_stop_rolling_double(c, b->d[column]);
 }
 
 /* What a mode of the motion allows no neighbour to have. */
-static void stop_what_stops(fst_neighbours *b, const fst_coefficients_double *c, const double *y)
+static void stop_what_stops(fst_neighbours *b, const fst_world_double *c, const fst_modes_double *m,
+                            const double *y)
 {
-    if (c->kinds.resists && fst_rests_double(&c->resistance))
+    if (c->kinds.resists && fst_rests_double(m))
         stop_rolling(b, c);
-    if (fst_sticks_double(c) > 0.5)
+    if (fst_sticks_double(c, m) > 0.5)
         stop_slips(b, c, y);
 }
 
 /* ------------------------------------------------------------------ along a step */
 
 /* The derivatives of the differences by theta at a stage. */
-static void slopes(const fst_neighbours *b, const fst_coefficients_double *c, double omega, const double *y,
-                   double d[FST_NEIGHBOURS][FST_STATE_SIZE], double k[FST_NEIGHBOURS][FST_STATE_SIZE],
-                   double *kt)
+static void slopes(const fst_neighbours *b, const fst_world_double *c, const fst_modes_double *m, double omega,
+                   const double *y, double d[FST_NEIGHBOURS][FST_STATE_SIZE],
+                   double k[FST_NEIGHBOURS][FST_STATE_SIZE], double *kt)
 {
     fst_linear_double linear;
     double f[FST_STATE_SIZE], by[FST_STATE_SIZE], seen[FST_STATE_SIZE], pace_by;
-    const double pace = fst_pace_double(c, y);
-    fst_linearise_double(c, omega, y, &linear, f);
-    by_parameter(b, c, y, by, &pace_by);
+    const double pace = fst_pace_double(c, m, y);
+    fst_linearise_double(c, m, omega, y, &linear, f);
+    by_parameter(b, c, m, y, by, &pace_by);
     for (int column = 0; column < b->count; ++column) {
         neighbour(b, c, y, column, d[column], seen);
-        const double faster = fst_pace_change_double(c, y, seen);
+        const double faster = fst_pace_change_double(c, m, y, seen);
         fst_change_along_double(c, omega, y, &linear, seen, k[column]);
         for (int i = 0; i < FST_STATE_SIZE; ++i)
             k[column][i] = pace * k[column][i] + faster * f[i];
@@ -220,12 +200,8 @@ static void carry_along_step(fst_neighbours *b, const fst_flow *flow)
 {
     static const double weights[16][15] = DOP_WEIGHTS;
     const fst_bead_step_double *s = &flow->step;
-    fst_coefficients_double here = s->context.coefficients, *c = &here;
-    const int onset = c->kinds.paced && fst_contact_mode(flow) == FST_MODE_ONSET;
-    const int starts = c->kinds.resists && fst_contact_roll(flow) == FST_ROLL_STARTS;
     double k[STAGES][FST_NEIGHBOURS][FST_STATE_SIZE], kt[STAGES][FST_NEIGHBOURS],
         at[FST_NEIGHBOURS][FST_STATE_SIZE];
-    take_mode(b, c);
     for (int stage = 0; stage <= STAGES; ++stage) { /* the last is the end of the step */
         memcpy(at, b->d, sizeof at);
         for (int before = 0; before < stage; ++before) {
@@ -234,32 +210,26 @@ static void carry_along_step(fst_neighbours *b, const fst_flow *flow)
                 for (int i = 0; i < FST_STATE_SIZE; ++i)
                     at[column][i] += weight * k[before][column][i];
         }
-        if (onset || starts) { /* the lag behind the push changes within the step */
-            const double since = fst_stage_time_double(&s->context, s->h, stage);
-            fst_lag_at_double(onset ? &here.law.coulomb.lag : &here.resistance.lag, since);
-            take_mode(b, c);
-        }
         if (stage < STAGES)
-            slopes(b, c, s->omega, s->stage[stage], at, k[stage], kt[stage]);
+            slopes(b, FST_WORLD(s), FST_MODES(s), s->omega, s->stage[stage], at, k[stage], kt[stage]);
     }
     memcpy(b->d, at, sizeof at);
     for (int stage = 0; stage < STAGES; ++stage)
         for (int column = 0; column < b->count; ++column)
             b->dt[column] += s->h * weights[STAGES][stage] * kt[stage][column];
-    stop_what_stops(b, c, s->end);
+    stop_what_stops(b, FST_WORLD(s), FST_MODES(s), s->end);
 }
 
 /* ------------------------------------------------------------------ where the mode changes */
 
-/* d(state)/dt in a mode of the contact, and of rolling. */
-static void rate_in(const fst_flow *flow, int mode, int roll, double *f)
+/* d(state)/dt at the end of the last step, in the modes of the contact and of rolling. */
+static void rate_in(const fst_flow *flow, int contact, int rolling, double *f)
 {
-    fst_coefficients_double c = flow->step.context.coefficients;
+    fst_modes_double m = *fst_flow_modes(flow);
     fst_pull_double unused;
-    if (c.kinds.paced)
-        c.law.coulomb.mode = mode;
-    c.resistance.mode = roll;
-    fst_rhs_double(&c, flow->step.omega, flow->step.end, f, &unused);
+    m.contact = contact;
+    m.rolling = rolling;
+    fst_rhs_double(fst_flow_world(flow), &m, flow->step.omega, flow->step.end, f, &unused);
 }
 
 /* Every neighbour, off by its dt, at the time of the motion: `sign` -1.  And the other way round: +1. */
@@ -275,44 +245,46 @@ static void forget_clocks(fst_neighbours *b)
     memset(b->dt, 0, sizeof b->dt);
 }
 
-/* What static friction could still take. */
-double fst_grip(const fst_coefficients_double *c, const double *y)
+/* What static friction could still take, in a setup, of the push in a state, and its change in time or along a
+ * neighbour. */
+static double grip(const fst_world_double *c, const fst_modes_double *m, const double *y)
 {
     fst_pull_double p;
-    fst_magnetic_pull_double(c, y, &p);
-    const fst_contact_double at = fst_contact_of_double(c, y, &p);
-    return 3.5 * c->law.coulomb.holding * fst_coulomb_load_double(&at) -
-           sqrt(at.push[0] * at.push[0] + at.push[1] * at.push[1]);
+    fst_magnetic_pull_double(c, m, y, &p);
+    const fst_contact_double at = fst_contact_of_double(c, m, y, &p);
+    return fst_grip_double(&at, c->yielding, c->law.coulomb.holding, 0.0);
 }
 
-static double grip_change(const fst_coefficients_double *c, double omega, const double *y, const double *along)
+static double grip_change(const fst_world_double *c, const fst_modes_double *m, double omega, const double *y,
+                          const double *along)
 {
     fst_linear_double l;
     double f[FST_STATE_SIZE], force[3], turning[3], twist[3], torque[3];
     fst_contact_double by;
-    fst_linearise_double(c, omega, y, &l, f);
+    fst_linearise_double(c, m, omega, y, &l, f);
     fst_pull_change_double(c, &l, y, along, force, turning);
     by.load = l.contact.load > 0 ? -force[2] : 0.0;
     fst_cross_double(along + FST_NX, l.at.b, twist);
     fst_cross_double(y + FST_NX, turning, torque);
     fst_dry_change_double(c, &l, y, along, force, twist, torque, &by);
     const double *a = l.contact.push;
-    return 3.5 * c->law.coulomb.holding * by.load -
-           (a[0] * by.push[0] + a[1] * by.push[1]) / sqrt(a[0] * a[0] + a[1] * a[1]);
+    return c->yielding * c->law.coulomb.holding * by.load -
+           (a[0] * by.push[0] + a[1] * by.push[1]) / fst_norm_2_double(a);
 }
 
 /* The neighbours let go when they do, not when the motion does. */
 static void let_go(fst_neighbours *b, const fst_flow *flow)
 {
-    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    const fst_world_double *c = fst_flow_world(flow);
+    const fst_modes_double *m = fst_flow_modes(flow);
     const double *y = flow->step.end, omega = flow->step.omega;
     double w[FST_STATE_SIZE];
     rate_in(flow, FST_MODE_STICK, fst_contact_roll(flow), w);
-    const double rate = grip_change(c, omega, y, w);
+    const double rate = grip_change(c, m, omega, y, w);
     for (int column = 0; column < b->count; ++column)
-        b->dt[column] = -grip_change(c, omega, y, b->d[column]) / rate;
+        b->dt[column] = -grip_change(c, m, omega, y, b->d[column]) / rate;
     if (differs(b))
-        b->dt[b->parameter] -= (fst_grip(&b->above, y) - fst_grip(&b->below, y)) / b->spread / rate;
+        b->dt[b->parameter] -= (grip(&b->above, m, y) - grip(&b->below, m, y)) / b->spread / rate;
     shift(b, w, 1.0);
     stop_slips(b, c, y);
 }
@@ -321,12 +293,12 @@ static void let_go(fst_neighbours *b, const fst_flow *flow)
  * that of the motion. */
 static void at_equal_speeds(fst_neighbours *b, const fst_flow *flow, int rolls)
 {
-    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    const fst_world_double *c = fst_flow_world(flow);
     const double *y = flow->step.end;
     double w[FST_STATE_SIZE], slip[2];
     fst_pull_double p;
-    fst_magnetic_pull_double(c, y, &p);
-    const fst_contact_double at = fst_contact_of_double(c, y, &p);
+    fst_magnetic_pull_double(c, fst_flow_modes(flow), y, &p);
+    const fst_contact_double at = fst_contact_of_double(c, fst_flow_modes(flow), y, &p);
     const double *push = rolls ? at.balance : at.push;
     rate_in(flow, fst_contact_mode(flow), fst_contact_roll(flow), w);
     fst_slip_double(c, w, slip);
@@ -370,7 +342,7 @@ static void catch_up(fst_neighbours *b, const fst_flow *flow, const fst_flow *th
 static void bring_to_equal_times(fst_neighbours *b, const fst_flow *flow)
 {
     double w[FST_STATE_SIZE];
-    if (!flow->step.context.coefficients.kinds.resists) /* then they are */
+    if (!fst_flow_world(flow)->kinds.resists) /* then they are */
         return;
     rate_in(flow, fst_contact_mode(flow), fst_contact_roll(flow), w);
     shift(b, w, -1.0);
@@ -380,7 +352,7 @@ static void bring_to_equal_times(fst_neighbours *b, const fst_flow *flow)
 /* The mode of rolling changes, at the end of the flow's last step, to that of `then`. */
 static void change_roll(fst_neighbours *b, const fst_flow *flow, const fst_flow *then)
 {
-    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    const fst_world_double *c = fst_flow_world(flow);
     const int before = fst_contact_roll(flow), after = fst_contact_roll(then);
     if (before == after)
         return;
@@ -394,7 +366,7 @@ static void change_roll(fst_neighbours *b, const fst_flow *flow, const fst_flow 
     if (after == FST_ROLL_ROLLS)
         return;
     stop_rolling(b, c);
-    if (fst_sticks_double(c) > 0.5)
+    if (fst_sticks_double(c, fst_flow_modes(flow)) > 0.5)
         stop_slips(b, c, flow->step.end);
     if (starts || fst_contact_mode(then) != FST_MODE_SLIP)
         catch_up(b, flow, then);
@@ -404,11 +376,11 @@ static void change_roll(fst_neighbours *b, const fst_flow *flow, const fst_flow 
 static void change_contact(fst_neighbours *b, const fst_flow *flow, const fst_flow *then)
 {
     const int before = fst_contact_mode(flow), after = fst_contact_mode(then);
-    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    const fst_world_double *c = fst_flow_world(flow);
     const int jumps = c->law.coulomb.holding > fst_coulomb_mu_double(&c->law.coulomb, 0.0);
     if (before == FST_MODE_SLIP && after == FST_MODE_SLIP) { /* against a push that turns it round */
         stop_slips(b, c, flow->step.end);
-    } else if (before == FST_MODE_SLIP) { /* what is left of a slip dies at equal theta */
+    } else if (before == FST_MODE_SLIP) { /* the rest of a slip dies at equal theta */
         stop_slips(b, c, flow->step.end);
         catch_up(b, flow, then);
     } else if (before == FST_MODE_STICK && after == FST_MODE_SLIP) {
@@ -430,34 +402,30 @@ static void change_mode(fst_neighbours *b, const fst_flow *flow)
 {
     fst_flow then;
     change(flow, &then);
-    if (flow->contact.next_roll >= 0)
+    if (flow->contact.roll.next >= 0)
         change_roll(b, flow, &then);
-    if (flow->contact.next_mode >= 0)
+    if (flow->contact.slip.next >= 0)
         change_contact(b, flow, &then);
-    take_mode(b, &then.step.context.coefficients);
-    if (then.step.context.coefficients.kinds.resists)
-        stop_what_stops(b, &then.step.context.coefficients, then.step.end);
+    if (fst_flow_world(&then)->kinds.resists)
+        stop_what_stops(b, fst_flow_world(&then), fst_flow_modes(&then), then.step.end);
 }
 
 /* ------------------------------------------------------------------ the way */
 
 void fst_neighbours_start(fst_neighbours *b, const fst_flow *flow)
 {
-    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    const fst_world_double *c = fst_flow_world(flow);
     forget_clocks(b);
-    take_mode(b, c);
     if (c->kinds.resists && fst_contact_roll(flow) != FST_ROLL_ROLLS)
         stop_rolling(b, c);
-    if (fst_sticks_double(c) > 0.5 || (c->kinds.paced && fst_contact_mode(flow) == FST_MODE_ONSET))
+    if (fst_sticks_double(c, fst_flow_modes(flow)) > 0.5 || fst_contact_mode(flow) == FST_MODE_ONSET)
         stop_slips(b, c, flow->step.y);
 }
 
 int fst_neighbours_known(const fst_flow *flow)
 {
-    const fst_coefficients_double *c = &flow->step.context.coefficients;
-    if (!c->kinds.paced)
-        return 1;
-    const int now = fst_contact_mode(flow), next = flow->contact.next_mode;
+    const fst_world_double *c = fst_flow_world(flow);
+    const int now = fst_contact_mode(flow), next = flow->contact.slip.next;
     const int held = c->kinds.patch && (now == FST_MODE_STICK || next == FST_MODE_STICK);
     return now != FST_MODE_FLIGHT && next != FST_MODE_FLIGHT && !held;
 }
@@ -465,16 +433,15 @@ int fst_neighbours_known(const fst_flow *flow)
 void fst_neighbours_follow(fst_neighbours *b, const fst_flow *flow)
 {
     carry_along_step(b, flow);
-    if (flow->step.context.coefficients.kinds.paced &&
-        (flow->contact.next_mode >= 0 || flow->contact.next_roll >= 0))
+    if (fst_contact_changes(flow))
         change_mode(b, flow);
 }
 
 void fst_neighbours_at_equal_times(fst_neighbours *b, const fst_flow *flow)
 {
-    const int paced = flow->step.context.coefficients.kinds.paced;
     double f[FST_STATE_SIZE];
-    if (!paced || flow->contact.next_mode >= 0) /* where a mode just ended, the clocks were set, or must wait */
+    if (!fst_flow_world(flow)->kinds.modes ||
+        flow->contact.slip.next >= 0) /* where a mode just ended, the clocks were set, or must wait */
         return;
     rate_in(flow, fst_contact_mode(flow), fst_contact_roll(flow), f);
     shift(b, f, -1.0);

@@ -11,7 +11,7 @@ typedef struct fst_neighbours {
     int parameter; /* the one whose setup differs instead of its start; -1: none does */
     int exact;     /* by the drive's omega alone */
     double spread; /* else: of the parameter between these two setups */
-    fst_coefficients_double below, above;
+    fst_world_double below, above;
     double d[FST_NEIGHBOURS][FST_STATE_SIZE]; /* by how much the states differ */
     double dt[FST_NEIGHBOURS];                /* at equal theta: by how much the clocks are ahead */
 } fst_neighbours;
@@ -28,8 +28,5 @@ int fst_neighbours_known(const fst_flow *flow);
 
 /* Compare them with the motion at equal times from here on. */
 void fst_neighbours_at_equal_times(fst_neighbours *b, const fst_flow *flow);
-
-/* What static friction could still take, over the traction by which the slip feels it. */
-double fst_grip(const fst_coefficients_double *c, const double *state);
 
 #endif

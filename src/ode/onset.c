@@ -1,10 +1,10 @@
 /* onset.c - how a slip begins: its direction, from which onset (contact.c) follows the bead while it is slow.
  * And how a bead begins to roll that a plate's resistance had kept from it (rest.c), which is the same for
- * another velocity: W_h, with the push a T and the strength a rho N, a = 5/(7 eps^2) of a contact that sticks
- * and 5/(2 eps^2) of one that slips.
+ * another velocity: W_h, with the push a T and the strength a rho N, a = 1/(beta k eps^2) of a contact that
+ * sticks and 1/(beta eps^2) of one that slips.
  *
  * Let delta be the angle by which V lags behind A, B the rate at which A turns in space, s = |V|, a = |A|, and
- * c = (7/2) mu N.  In a slip
+ * c = k mu N.  In a slip
  *
  *     s' = a cos(delta) - c,        delta' = B - (a/s) sin(delta)
  *
@@ -20,7 +20,7 @@
  * plate, and of t^7 in the place and the direction of the bead afterwards, for slip mends its own direction:
  * s^(7/2).  With the first value of `lean` alone it would be s^(5/2).
  */
-#include "ode/flow.h"
+#include "ode/onset.h"
 
 #include "model/tangent.inl"
 
@@ -33,12 +33,12 @@ typedef struct pushed {
     double a[2], da[2], c, dc;
 } pushed;
 
-static pushed push_of_slip(const fst_coefficients_double *c, const fst_contact_double *at,
+static pushed push_of_slip(const fst_world_double *c, const fst_contact_double *at,
                            const fst_contact_double *by)
 {
-    /* A bead that does not roll feels A as (2/7) A: model/dynamics.inl */
-    const double share = c->kinds.resists && fst_rests_double(&c->resistance) ? 2.0 / 7.0 : 1.0;
-    const double mu = 3.5 * share * fst_coulomb_mu_double(&c->law.coulomb, 0.0);
+    /* A bead that does not roll feels A as A/k: model/dynamics.inl */
+    const double share = c->kinds.resists && fst_rests_double(at->modes) ? c->share : 1.0;
+    const double mu = c->yielding * share * fst_coulomb_mu_double(&c->law.coulomb, 0.0);
     const pushed p = {{share * at->push[0], share * at->push[1]},
                       {share * by->push[0], share * by->push[1]},
                       mu * fst_coulomb_load_double(at),
@@ -46,10 +46,10 @@ static pushed push_of_slip(const fst_coefficients_double *c, const fst_contact_d
     return p;
 }
 
-static pushed push_of_roll(const fst_coefficients_double *c, const fst_contact_double *at,
+static pushed push_of_roll(const fst_world_double *c, const fst_contact_double *at,
                            const fst_contact_double *by)
 {
-    const double share = fst_sticks_double(c) > 0.5 ? 2.0 / 7.0 * c->torque : c->torque;
+    const double share = fst_sticks_double(c, at->modes) > 0.5 ? c->share * c->torque : c->torque;
     const pushed p = {{share * at->balance[0], share * at->balance[1]},
                       {share * by->balance[0], share * by->balance[1]},
                       share * c->resistance.arm * fst_coulomb_load_double(at),
@@ -57,16 +57,16 @@ static pushed push_of_roll(const fst_coefficients_double *c, const fst_contact_d
     return p;
 }
 
-typedef pushed (*push_function)(const fst_coefficients_double *, const fst_contact_double *,
+typedef pushed (*push_function)(const fst_world_double *, const fst_contact_double *,
                                 const fst_contact_double *);
 
 /* The push on a bead in this state of this motion, and its change in time. */
 static pushed push_in(const fst_flow *flow, push_function push, double omega, const double *state)
 {
-    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    const fst_world_double *c = fst_flow_world(flow);
     fst_linear_double l;
     double dy[FST_STATE_SIZE], force[3], turning[3], twist[3], torque[3];
-    fst_linearise_double(c, omega, state, &l, dy);
+    fst_linearise_double(c, fst_flow_modes(flow), omega, state, &l, dy);
     fst_contact_double by;
     fst_pull_change_double(c, &l, state, dy, force, turning);
     fst_slip_double(c, dy, by.slip);
@@ -91,17 +91,19 @@ static double lean_in(const fst_flow *flow, push_function push, double omega, co
 
 /* The states `apart` before (0) and after (1) the given one, to the second order in time. */
 static void states_around(const fst_flow *flow, double omega, const double *state, double apart,
-                          double around[2][FST_STATE_SIZE])
+                          double around[2][FST_NUMBERS])
 {
-    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    const fst_world_double *c = fst_flow_world(flow);
+    const fst_modes_double *m = fst_flow_modes(flow);
     double slope[FST_STATE_SIZE], slopes[2][FST_STATE_SIZE];
     fst_pull_double unused;
-    fst_rhs_double(c, omega, state, slope, &unused);
+    memset(around, 0, 2 * sizeof *around); /* they do not lag yet, at no time */
+    fst_rhs_double(c, m, omega, state, slope, &unused);
     for (int side = 0; side < 2; ++side) {
         const double time = side ? apart : -apart;
         for (int i = 0; i < FST_STATE_SIZE; ++i)
             around[side][i] = state[i] + time * slope[i];
-        fst_rhs_double(c, omega + time * flow->step.ramp, around[side], slopes[side], &unused);
+        fst_rhs_double(c, m, omega + time * flow->drive.ramp, around[side], slopes[side], &unused);
     }
     for (int side = 0; side < 2; ++side)
         for (int i = 0; i < FST_STATE_SIZE; ++i)
@@ -113,58 +115,63 @@ static void states_around(const fst_flow *flow, double omega, const double *stat
 static void begin_lag(const fst_flow *flow, push_function push, double apart, const double *state,
                       fst_lag_double *lag)
 {
-    const double omega = fst_flow_omega(flow, flow->t), turn = apart * flow->step.ramp;
-    double around[2][FST_STATE_SIZE], across;
+    const double omega = fst_drive_rate_double(&flow->drive, flow->t), turn = apart * flow->drive.ramp;
+    double around[2][FST_NUMBERS], across;
     states_around(flow, omega, state, apart, around);
     const double before = lean_in(flow, push, omega - turn, around[0], &across),
                  after = lean_in(flow, push, omega + turn, around[1], &across);
     const double lean = lean_in(flow, push, omega, state, &across);
-    lag->lean = lag->then[0] = lean;
-    lag->then[1] = (after - before) / (2.0 * apart);
-    lag->then[2] = 0.5 * (after - 2.0 * lean + before) / (apart * apart);
-    lag->slip = -lag->then[1] / across;
+    lag->lean[0] = lean;
+    lag->lean[1] = (after - before) / (2.0 * apart);
+    lag->lean[2] = 0.5 * (after - 2.0 * lean + before) / (apart * apart);
+    lag->slip = -lag->lean[1] / across;
     lag->since = 0.0;
 }
 
-static const fst_lag_double NO_LAG = {0.0, 0.0, {0.0, 0.0, 0.0}, 0.0};
+double fst_hand_over(double rtol)
+{
+    const double quarter = sqrt(sqrt(rtol));
+    return quarter * sqrt(sqrt(quarter));
+}
 
 /* The time, in 1/gamma but at most 1, in which the push on a slip may turn.  It does so at the rate at which
  * the direction of a slow rotation does, from which the plate's torque comes. */
-static double time_of_turning(const fst_coefficients_double *c, const double *state)
+static double time_of_turning(const fst_flow *flow, const double *state)
 {
-    if (!c->kinds.resists || c->resistance.mode != FST_ROLL_ROLLS)
+    const fst_world_double *c = fst_flow_world(flow);
+    const fst_modes_double *m = fst_flow_modes(flow);
+    if (!c->kinds.resists || m->rolling != FST_ROLL_ROLLS)
         return 1.0;
     fst_pull_double p;
-    fst_magnetic_pull_double(c, state, &p);
-    const double spin = sqrt(state[FST_WX] * state[FST_WX] + state[FST_WY] * state[FST_WY]);
-    const double strength = 2.0 / 7.0 * c->torque * c->resistance.arm * fmax(fst_load_double(c, p.force), 0.0);
+    fst_magnetic_pull_double(c, m, state, &p);
+    const double spin = fst_norm_2_double(state + FST_WX);
+    const double strength = c->share * c->torque * c->resistance.arm * fmax(fst_load_double(c, p.force), 0.0);
     return fmin(1.0, TURNS * spin / (strength + 1e-290));
 }
 
-double fst_contact_begin_onset(fst_flow *flow, const double *state)
+double fst_begin_onset(fst_flow *flow, const double *state)
 {
-    fst_coulomb_double *law = &flow->step.context.coefficients.law.coulomb;
+    fst_modes_double *modes = &flow->step.context.modes;
     fst_lag_double lag;
-    law->mode = FST_MODE_ONSET;
-    law->lag = NO_LAG;
-    const double time = time_of_turning(&flow->step.context.coefficients, state);
+    modes->contact = FST_MODE_ONSET;
+    modes->onset = fst_new_modes_double().onset;
+    const double time = time_of_turning(flow, state);
     begin_lag(flow, push_of_slip, fmin(APART, PART * time), state, &lag);
-    law->lag = lag;
+    modes->onset = lag;
     return time;
 }
 
-void fst_contact_begin_rolling(fst_flow *flow, const double *state, double *strength, double *growth,
-                               double *turning)
+void fst_begin_rolling(fst_flow *flow, const double *state, double *strength, double *growth, double *turning)
 {
-    fst_resistance_double *resistance = &flow->step.context.coefficients.resistance;
+    fst_modes_double *modes = &flow->step.context.modes;
     fst_lag_double lag;
-    resistance->mode = FST_ROLL_STARTS;
-    resistance->lag = NO_LAG;
-    const pushed p = push_in(flow, push_of_roll, fst_flow_omega(flow, flow->t), state);
-    const double size = sqrt(p.a[0] * p.a[0] + p.a[1] * p.a[1]) + 1e-290;
-    *turning = sqrt(p.da[0] * p.da[0] + p.da[1] * p.da[1]) + 1e-290;
+    modes->rolling = FST_ROLL_STARTS;
+    modes->start = fst_new_modes_double().start;
+    const pushed p = push_in(flow, push_of_roll, fst_drive_rate_double(&flow->drive, flow->t), state);
+    const double size = fst_norm_2_double(p.a) + 1e-290;
+    *turning = fst_norm_2_double(p.da) + 1e-290;
     *strength = p.c;
     *growth = (p.a[0] * p.da[0] + p.a[1] * p.da[1]) / size - p.dc;
     begin_lag(flow, push_of_roll, fmin(APART, PART * size / *turning), state, &lag);
-    resistance->lag = lag;
+    modes->start = lag;
 }

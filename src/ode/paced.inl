@@ -1,20 +1,12 @@
 /* paced.inl - steps under a law with modes, over REAL: how good one is, how long it takes, and whether it may
- * be the last of its mode.  pace.c and contact.c tell the reasons; lanes ask the same questions of all their
+ * be the last of its mode.  The reasons are in pace.c and contact.c; lanes ask the same questions of all their
  * steps at once.  The including file brings bead_step.inl and path.inl.
  */
 #ifndef PACED_LEAST_DIGITS
 #define PACED_LEAST_DIGITS 0.03 /* relative error of V or W_h that a step may make */
-#define PACED_SLOWER 1e-3       /* captured, in tolerances */
-#define PACED_LEAST_SPEED 1e-14 /* that rounding leaves of a slip's digits */
 #define PACED_LEAST_FALL 1e-12  /* below this slip, or the tolerance, rounding may end it: */
 #define PACED_ROUNDING 2e-15    /* of a slip, over the speeds whose difference it is */
-#define PACED_SLACK 1e-13       /* relative excess of |A| at a release */
 #endif
-
-static inline REAL FN(norm_2)(const REAL v[2])
-{
-    return REAL_SQRT(v[0] * v[0] + v[1] * v[1]);
-}
 
 /* ------------------------------------------------------------------ how good a step is */
 
@@ -30,33 +22,34 @@ static inline void FN(contact_errors)(const FN(bead_step) * s, REAL *of_slip, RE
         if (i < FST_NX || i >= FST_WX)
             for (int j = 0; j < 8; ++j)
                 error[i] += s->h * fifth[j] * s->k[slot[j]][i];
-    FN(slip)(&s->context.coefficients, error, slip);
+    FN(slip)(FST_WORLD(s), error, slip);
     *of_slip = FN(norm_2)(slip);
     *of_roll = FN(norm_2)(error + FST_WX);
 }
 
 /* Where the plate resists rolling (ode/rest.c), the mask of a bead that rolls, in a time of its own. */
-static inline REAL_MASK FN(rolls_in_theta)(const FN(coefficients) * c)
+static inline REAL_MASK FN(rolls_in_theta)(const FN(bead_step) * s)
 {
-    const REAL mode = REAL_SELECT(FN(in_flight)(c), R(1.0), c->resistance.mode);
-    return REAL_LESS(HAS(c->kinds, resists) ? mode : R(1.0), R(0.5));
+    const FN(modes) *m = FST_MODES(s);
+    const REAL mode = REAL_SELECT(FN(in_flight)(m), R(1.0), m->rolling);
+    return FN(is_moving)(HAS(FST_WORLD(s)->kinds, resists) ? mode : R(1.0));
 }
 
 /* The error of a step over its tolerance, from `error`, that of the whole state: a slip keeps some digits, and
  * so does a rotation that a plate resists. */
 static inline REAL FN(paced_error)(const FN(bead_step) * s, REAL error)
 {
-    const FN(coefficients) *c = &s->context.coefficients;
-    const REAL_MASK slips = FN(coulomb_slips)(&c->law.coulomb);
-    const REAL_MASK rolls = FN(rolls_in_theta)(c);
+    const FN(world) *c = FST_WORLD(s);
+    const FN(modes) *m = FST_MODES(s);
+    const REAL_MASK slips = FN(is_moving)(m->contact), rolls = FN(rolls_in_theta)(s);
     REAL start[2], end[2], slip_error, roll_error;
     if (!REAL_ANY(slips) && !REAL_ANY(rolls))
         return error;
     FN(contact_errors)(s, &slip_error, &roll_error);
     FN(slip)(c, s->y, start);
     FN(slip)(c, s->end, end);
-    const REAL first = FN(contact_motion_2)(c, start, s->y[FST_WZ]);
-    const REAL last = FN(contact_motion_2)(c, end, s->end[FST_WZ]);
+    const REAL first = FN(contact_motion_2)(c, m, start, s->y[FST_WZ]);
+    const REAL last = FN(contact_motion_2)(c, m, end, s->end[FST_WZ]);
     const REAL least = REAL_SELECT(REAL_LESS(last, first), last, first);
     const REAL of_slip = slip_error / (R(PACED_LEAST_DIGITS) * REAL_SQRT(least));
     const REAL with_slip = REAL_SELECT(slips, REAL_MAX(of_slip, error), error);
@@ -70,38 +63,27 @@ static inline REAL FN(paced_error)(const FN(bead_step) * s, REAL error)
 /* ------------------------------------------------------------------ how long it takes */
 
 /* The mask of a step that measures its own time. */
-static inline REAL_MASK FN(measures_time)(const FN(coefficients) * c)
+static inline REAL_MASK FN(measures_time)(const FN(bead_step) * s)
 {
-    const REAL slips = REAL_SELECT(FN(coulomb_slips)(&c->law.coulomb), R(1.0), R(0.0));
-    return REAL_LESS(R(0.5), REAL_SELECT(FN(rolls_in_theta)(c), R(1.0), slips));
+    const REAL slips = REAL_SELECT(FN(is_moving)(FST_MODES(s)->contact), R(1.0), R(0.0));
+    return REAL_LESS(R(0.5), REAL_SELECT(FN(rolls_in_theta)(s), R(1.0), slips));
 }
 
 static inline REAL FN(paced_time)(const FN(bead_step) * s)
 {
-    const REAL_MASK measures = FN(measures_time)(&s->context.coefficients);
-    REAL pace[FST_PATH_PLACES];
-    if (!REAL_ANY(measures))
-        return s->h;
-    for (int place = 0; place < FST_PATH_PLACES; ++place)
-        pace[place] = FST_PATH_PACE(s, place);
-    return REAL_SELECT(measures, FN(path_integral)(s, pace, 1), s->h);
+    return REAL_SELECT(FN(measures_time)(s), s->end[FST_STEP_TIME], s->h);
 }
 
 /* ------------------------------------------------------------------ whether its mode ends */
-
-static inline REAL FN(captured)(REAL rtol)
-{
-    return REAL_MAX(R(PACED_SLOWER) * rtol, R(PACED_LEAST_SPEED));
-}
 
 /* Whether a slip is nearly nothing at the end of a step.  It may fall so slowly, because the push is nearly as
  * strong as friction, that rounding of the velocities keeps it as it is. */
 static inline REAL_MASK FN(slip_is_over)(const FN(bead_step) * s, REAL rtol)
 {
-    const REAL *y = s->y, eps = s->context.coefficients.eps;
+    const REAL *y = s->y, eps = FST_WORLD(s)->eps;
     REAL before[2], after[2];
-    FN(slip)(&s->context.coefficients, y, before);
-    FN(slip)(&s->context.coefficients, s->end, after);
+    FN(slip)(FST_WORLD(s), y, before);
+    FN(slip)(FST_WORLD(s), s->end, after);
     const REAL speeds =
         REAL_ABS(y[FST_VX]) + REAL_ABS(y[FST_VY]) + eps * (REAL_ABS(y[FST_WX]) + REAL_ABS(y[FST_WY]));
     const REAL size = FN(norm_2)(after), change = REAL_ABS(size - FN(norm_2)(before));
@@ -109,12 +91,4 @@ static inline REAL_MASK FN(slip_is_over)(const FN(bead_step) * s, REAL rtol)
     const REAL stays = REAL_SELECT(REAL_LESS_EQUAL(change, R(PACED_ROUNDING) * speeds), slow, R(0.0));
     const REAL far = REAL_SELECT(REAL_LESS(size, stays), R(0.0), R(1.0));
     return REAL_LESS_EQUAL(REAL_SELECT(REAL_LESS(captured, size), far, R(0.0)), R(0.5));
-}
-
-/* What static friction could still take of the push of a bead that sticks at a point, some slack included. */
-static inline REAL FN(grip_left)(const FN(coefficients) * c, const REAL *state, const FN(pull) * p)
-{
-    const FN(contact) at = FN(contact_of)(c, state, p);
-    const REAL most = R(3.5) * c->law.coulomb.holding * FN(coulomb_load)(&at);
-    return most * (R(1.0) + R(PACED_SLACK)) - FN(norm_2)(at.push);
 }

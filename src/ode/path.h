@@ -16,7 +16,7 @@
  * a place inside the step needs them too.
  *
  * Nobody outside this room needs to know which stage a place is: ask for its state, its slope (the derivative
- * there) and its pull (the magnet's force) by the macros below.  They take a bead's step of any kind of number.
+ * there) and its pull (the magnet's force) by the macros below, which take a bead's step of any kind of number.
  */
 #ifndef FST_ODE_PATH_H
 #define FST_ODE_PATH_H
@@ -29,7 +29,13 @@ static const int FST_PATH_STAGE_[FST_DENSE_PLACES] = {0, 6, 7, 5, 9, 8, 10, 11, 
 #define FST_PATH_SLOPE(step, place) ((step)->k[FST_PATH_STAGE_[place]])
 #define FST_PATH_PULL(step, place) (&(step)->context.pull[FST_PATH_STAGE_[place]])
 #define FST_PATH_PACE(step, place)                                                                             \
-    ((step)->context.pace[FST_PATH_STAGE_[place]]) /* dt/dtheta, see bead_step.inl */
+    (FST_PATH_SLOPE(step, place)[FST_STEP_TIME])                          /* dt/dtheta, see bead_step.inl */
+#define FST_DENSE_ROW(step) ((int)(sizeof(step)->y / sizeof(step)->y[0])) /* numbers between its coefficients */
+
+/* What the motion depends on and never changes, and its modes within the step. */
+#define FST_WORLD_OF_STEP(step) step.context.world
+#define FST_WORLD(step) (&(step)->context.world)
+#define FST_MODES(step) MODES_OF(&(step)->context)
 
 /* Their nodes. */
 static const double FST_PATH_NODE[FST_DENSE_PLACES] = {

@@ -22,7 +22,7 @@ static inline __attribute__((always_inline)) REAL FN(path_integral)(const FN(bea
 /* What integrates to time integrals: the integrands q times dt/dtheta at a place, under a law with modes. */
 static inline void FN(pace_integrands)(const FN(bead_step) * s, int place, int dim, REAL *q)
 {
-    if (s->context.coefficients.kinds.paced)
+    if (FST_WORLD(s)->kinds.modes)
         for (int i = 0; i < dim; ++i)
             q[i] = FST_PATH_PACE(s, place) * q[i];
 }
@@ -54,7 +54,7 @@ static inline REAL FN(step_speed)(const FN(bead_step) * s)
     for (int i = 1; i < FST_STATE_SIZE; ++i)
         speed = REAL_MAX(REAL_ABS(slope[i]), speed);
 #if KNOWS_DRY
-    if (HAS(s->context.coefficients.kinds, paced)) /* the slopes are those by theta */
+    if (HAS(FST_WORLD(s)->kinds, modes)) /* the slopes are those by theta */
         speed = speed / FST_PATH_PACE(s, FST_PATH_END);
 #endif
     return speed;

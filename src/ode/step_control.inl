@@ -19,7 +19,7 @@
  * - reject: the same rule makes the step smaller; a number that is not finite makes it ten times smaller.
  *
  * Every function takes a mask of the lanes that it is meant for, REAL_EVERYWHERE where there is only one.
- * The time is its owner's: the controller is told how far it is to the end.  The including file brings
+ * The time belongs to the caller, who says how far it is to the end.  The including file brings
  * base/twofold.inl.
  */
 typedef struct FN(step_control) {
@@ -29,8 +29,7 @@ typedef struct FN(step_control) {
     REAL lands;       /* 1 where the present try ends at the end of the way, else 0 */
     REAL rejections;  /* tries of the present step that failed */
     REAL worst_error; /* error of the last of them, infinity where a number was not finite */
-    REAL root;        /* error of the last accepted step to the power -1/32: see damped_factor() */
-    REAL damped;      /* 1: damped_factor() makes the next size, 0: step_factor() alone */
+    REAL root; /* error of the last accepted step to the power -1/32, in the fast lanes: damped_factor() */
 } FN(step_control);
 
 #ifndef STEP_LEAST
@@ -47,7 +46,7 @@ enum { FST_HOLD_AFTER_REJECTION, FST_GROW_AFTER_REJECTION };
 static inline FN(step_control) FN(begin_control)(REAL proposal, REAL greatest)
 {
     const REAL zero = R(0.0);
-    const FN(step_control) control = {proposal, greatest, zero, zero, zero, zero, R(1.0), zero};
+    const FN(step_control) control = {proposal, greatest, zero, zero, zero, zero, R(1.0)};
     return control;
 }
 
@@ -139,8 +138,8 @@ static inline REAL FN(reject_step)(FN(step_control) * c, REAL_MASK mask, REAL er
  * before it: 0.9 e^(-3/32) e_0^(1/32), a proportional-integral controller (K. Gustafsson, ACM Trans. Math.
  * Softw. 17 (1991) 533).  Along an orbit errors rise and fall over some steps.  Because this controller sees
  * that, 0.3 % of the steps are rejected at a tolerance of 1e-10 instead of 5 %, and the same error of a final
- * state takes an eighth less work.  The fast lanes use it always, runs and the portable form where they are
- * asked to (run.controller): the plain rule has the published bits.
+ * state takes an eighth less work.  The fast lanes use it; runs and the portable form keep the plain rule,
+ * which has the published bits.
  */
 static inline REAL FN(damped_factor)(FN(step_control) * c, REAL_MASK mask, REAL factor)
 {
@@ -149,14 +148,4 @@ static inline REAL FN(damped_factor)(FN(step_control) * c, REAL_MASK mask, REAL 
     const REAL root = REAL_OVER_SQRT(sixteenth, sixteenth), before = c->root;
     c->root = REAL_SELECT(mask, root, before);
     return factor * REAL_ROUGH_RECIPROCAL(root * before);
-}
-
-/* By the rule that is in use, of step_factor(): the factor by which the size may change after an accepted step.
- */
-static inline REAL FN(factor_in_use)(FN(step_control) * c, REAL_MASK mask, REAL factor)
-{
-    const REAL_MASK damped = REAL_LESS(R(0.0), c->damped);
-    if (!REAL_ANY(damped))
-        return factor;
-    return REAL_SELECT(damped, FN(damped_factor)(c, mask, factor), factor);
 }

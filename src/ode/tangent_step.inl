@@ -7,14 +7,17 @@
  */
 #include "model/tangent.inl"
 
+#undef TANGENT_WORLD
+#define TANGENT_WORLD(step) (&(step)->context) /* what never changes along it */
 #define STEP_DIM (2 * FST_STATE_SIZE)
 #define STEP_NAME(name) FN(tangent_##name)
-#define STEP_CONTEXT FN(coefficients)
+#define STEP_CONTEXT FN(world)
 #define STEP_RHS(c, drive, y, dy) FN(tangent_rhs)(c, drive, y, dy)
 
-RHS_KIND void FN(tangent_rhs)(const FN(coefficients) * c, REAL omega, const REAL *y, REAL *dy)
+RHS_KIND void FN(tangent_rhs)(const FN(world) * c, REAL omega, const REAL *y, REAL *dy)
 {
-    FN(rhs_and_tangent)(c, omega, y, y + FST_STATE_SIZE, dy, dy + FST_STATE_SIZE);
+    FN(rhs_and_tangent)
+    (c, NULL, omega, y, y + FST_STATE_SIZE, dy, dy + FST_STATE_SIZE); /* laws without modes */
 }
 
 #include "ode/dop853.inl"

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "model/disc.h"
 #include "model/params.h"
 #include "ode/flow.h"
 
@@ -13,9 +14,9 @@ fst_flow_options fst_default_flow_options(void)
     fst_flow_options o;
     memset(&o, 0, sizeof o);
     o.cookie = FST_FLOW_OPTIONS_COOKIE;
-    o.rtol = 1e-10;
+    o.rtol = FST_DEFAULT_RTOL;
     for (int i = 0; i < FST_STATE_SIZE; ++i)
-        o.atol[i] = 1e-10;
+        o.atol[i] = FST_DEFAULT_RTOL;
     return o;
 }
 
@@ -48,20 +49,27 @@ fst_status fst_flow_new(const fst_model *model, const fst_flow_options *options,
     if (!made)
         return fst_fail(error, FST_NO_MEMORY, "fst_flow_new", "out of memory");
     fst_bead_step_double *s = &made->step;
-    s->context.coefficients = model->coefficients;
+    s->context.world = model->world;
+    s->context.modes = fst_new_modes_double();
+    s->context.modes.slow_2 = fst_disc_slow_2(options->rtol);
     made->groups = model->groups;
-    s->context.flight.params = model->params;
-    s->context.flight.groups = model->groups;
     made->rtol = options->rtol;
     memcpy(made->atol, options->atol, sizeof made->atol);
-    s->ramp = options->ramp;
-    made->omega_start = model->groups.omega;
-    memcpy(s->y, state, sizeof s->y);
+    made->drive.omega = model->groups.omega;
+    made->drive.ramp = options->ramp;
+    memcpy(s->y, state, FST_STATE_SIZE * sizeof *state);
     (void)fst_renormalise_double(s->y);
-    made->contact.next_mode = made->contact.next_roll = -1;
-    fst_contact_put_down(made, s->y);
-    fst_bead_flow_begin(made, options->first_step, options->greatest_step);
-    made->control.damped = options->controller == FST_CONTROLLER_DAMPED ? 1.0 : 0.0;
+    made->contact.slip.next = made->contact.roll.next = -1;
+    fst_status begun = options->outside ? fst_outside_begin(made, options->outside, error) : FST_OK;
+    if (begun == FST_OK) {
+        fst_contact_put_down(made, s->y);
+        fst_bead_flow_begin(made, options->first_step, options->greatest_step);
+        begun = fst_outside_begun(made, error);
+    }
+    if (begun != FST_OK) {
+        fst_flow_free(made);
+        return begun;
+    }
     made->bead_angle.x = s->y[FST_X];
     made->bead_angle.y = s->y[FST_Y];
     made->bead_angle_start = made->bead_angle;
@@ -80,17 +88,22 @@ void fst_flow_restart(fst_flow *flow)
 
 void fst_flow_free(fst_flow *flow)
 {
+    if (flow)
+        free(flow->step.context.outside);
     free(flow);
 }
 
 fst_status fst_flow_step(fst_flow *flow, double t_limit, fst_error *error)
 {
-    if (flow->step.context.coefficients.kinds.paced) {
+    if (flow->step.context.outside)
+        fst_outside_before_step(flow);
+    if (fst_flow_world(flow)->kinds.modes) {
         const fst_status status = fst_contact_step(flow, t_limit, error);
         if (status != FST_OK)
             return status;
     } else if (!fst_bead_flow_go(flow, t_limit)) {
-        return fst_flow_fail(flow, error);
+        const fst_status failed = flow->step.context.outside ? fst_outside_fail(flow, error) : FST_OK;
+        return failed == FST_OK ? fst_flow_fail(flow, error) : failed;
     }
     flow->bead_angle_start = flow->bead_angle;
     flow->cursor = 1.0;

@@ -1,6 +1,5 @@
-/* branch.c - whole branches, as the public call makes them.  Each file uses those below it: */
-/* clang-format off */
-/*
+/* branch.c - whole branches, as the public call makes them.  Each file uses those below it:
+ *
  *      branch.c           checks the options, and chooses
  *        counter.c          the counter-rotating family: simulate until an orbit is found, begin there
  *        locked.c           every equilibrium, by Newton's method from many starts at several parameter values
@@ -12,9 +11,7 @@
  *                    .----- 1 ---- end            0 is followed first, from its start both ways;
  *       end ---- 0 --*-- start --- 0 --- end      1 and 2, born at its special points (*), wait on the list,
  *                    '----- 2 ---- end            and are followed away from there only.
- */
-/* clang-format on */
-/*
+ *
  * A branch that is met again (a curve that closes, the other end of one that is known) is recognised by its
  * numbers and not followed twice.  Of two conjugate orbits, images of each other under S2, only one is
  * followed; every end says on which branch the images lie.  Over two parameters the branches over the first are
@@ -25,24 +22,26 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/listed.h"
 #include "base/number.h"
 #include "model/params.h"
 #include "orbit/branch_list.h"
-#include "orbit/counter.h"
-#include "orbit/locked.h"
 #include "orbit/special_curve.h"
+#include "orbit/tracer.h"
 
 const char *fst_special_name(fst_special_type type)
 {
-    static const char *const names[] = {"fold",           "pitchfork",       "period-doubling", "hopf",
-                                        "neimark-sacker", "origin-crossing", "transcritical",   "grazing"};
-    return (unsigned)type < sizeof names / sizeof *names ? names[type] : "unknown";
+    FST_NAME_IN(FST_SPECIALS, type, "unknown");
 }
 
 const char *fst_branch_kind_name(fst_branch_kind kind)
 {
-    static const char *const names[] = {"counter", "locked", "all"};
-    return (unsigned)kind < sizeof names / sizeof *names ? names[kind] : "unknown";
+    FST_NAME_IN(FST_BRANCH_KINDS, kind, "unknown");
+}
+
+const char *fst_end_name(fst_end_type type)
+{
+    FST_NAME_IN(FST_ENDS, type, "unknown");
 }
 
 fst_branch_options fst_default_branch_options(void)
@@ -141,7 +140,8 @@ static fst_status check_second(const fst_branch_options *o, const fst_params *pa
     if (!isfinite(o->second_from) || !isfinite(o->second_to) || o->second_from == o->second_to)
         WRONG("second_from", "the second parameter needs a range with two different ends, not %g to %g",
               o->second_from, o->second_to);
-    if ((unsigned)o->special > FST_SPECIAL_ORIGIN_CROSSING)
+    static const char *const followed[] = {FST_FOLLOWED_SPECIALS(FST_ROW_NAME)};
+    if ((unsigned)o->special >= sizeof followed / sizeof *followed)
         WRONG("special", "curves of %s points are not followed over two parameters",
               fst_special_name(o->special));
     if (strcmp(o->second_key, o->key) == 0)

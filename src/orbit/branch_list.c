@@ -1,61 +1,51 @@
 /* branch_list.c - the growing lists of a branch, and which of its branches passes through a state. */
 #include "orbit/branch_list.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
+#include "base/grow.h"
 
 /* ------------------------------------------------------------------ growing lists */
 
-static fst_status out_of_memory(fst_error *error)
+static fst_status append(void **list, size_t *count, const void *element, size_t size, fst_error *error)
 {
-    return fst_fail(error, FST_NO_MEMORY, "branch", "out of memory");
-}
-
-/* Room for one more element at the end of a list whose length is a power of two when full. */
-static int grow(void **list, size_t count, size_t size)
-{
-    if (count & (count - 1) || (count == 0 && *list))
-        return 1;
-    void *larger = realloc(*list, (count ? 2 * count : 1) * size);
-    if (!larger)
-        return 0;
-    *list = larger;
-    return 1;
+    if (!fst_grow(list, *count, size))
+        return fst_fail(error, FST_NO_MEMORY, "branch", "out of memory");
+    memcpy((char *)*list + (*count)++ * size, element, size);
+    return FST_OK;
 }
 
 fst_status fst_branch_add_point(fst_branch *out, const fst_branch_point *seen, int branch, fst_error *error)
 {
-    if (!grow((void **)&out->points, out->point_count, sizeof *out->points))
-        return out_of_memory(error);
-    out->points[out->point_count] = *seen;
-    out->points[out->point_count++].branch = branch;
-    return FST_OK;
+    fst_branch_point point = *seen;
+    point.branch = branch;
+    return append((void **)&out->points, &out->point_count, &point, sizeof point, error);
 }
 
 fst_status fst_branch_add_special(fst_branch *out, const fst_special *special, fst_error *error)
 {
-    if (!grow((void **)&out->specials, out->special_count, sizeof *out->specials))
-        return out_of_memory(error);
-    out->specials[out->special_count++] = *special;
-    return FST_OK;
+    return append((void **)&out->specials, &out->special_count, special, sizeof *special, error);
 }
 
 fst_status fst_branch_add_end(fst_branch *out, int branch, int family, double value, const fst_curve_end *why,
                               fst_error *error)
 {
-    if (!grow((void **)&out->ends, out->end_count, sizeof *out->ends))
-        return out_of_memory(error);
-    fst_branch_end *end = &out->ends[out->end_count++];
-    memset(end, 0, sizeof *end);
-    end->branch = branch;
-    end->family = family;
-    end->value = value;
-    end->type = why->type;
-    (void)snprintf(end->reason, sizeof end->reason, "%s", why->reason);
-    return FST_OK;
+    fst_branch_end end = {.branch = branch, .family = family, .value = value, .type = why->type};
+    (void)snprintf(end.reason, sizeof end.reason, "%s", why->reason);
+    return append((void **)&out->ends, &out->end_count, &end, sizeof end, error);
+}
+
+void fst_curve_end_set(fst_curve_end *end, fst_end_type type, const char *format, ...)
+{
+    va_list arguments;
+    end->type = type;
+    va_start(arguments, format);
+    (void)vsnprintf(end->reason, sizeof end->reason, format, arguments);
+    va_end(arguments);
 }
 
 void fst_branch_reverse(fst_branch *out, size_t first)
@@ -128,7 +118,6 @@ int fst_branch_of_state(const fst_branch *out, double value, const double *state
     return best;
 }
 
-/* Where the images of each branch are.  Of orbits without the symmetry only one of the two is followed. */
 void fst_branch_find_images(fst_branch *out)
 {
     for (size_t e = 0; e < out->end_count; ++e) {

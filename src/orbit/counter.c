@@ -1,5 +1,5 @@
 /* counter.c - the family of counter-rotating orbits. */
-#include "orbit/counter.h"
+#include "orbit/tracer.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -45,13 +45,6 @@ static fst_status remember(void *user, const fst_node *node, fst_error *error)
     return fst_watch_ask(c->watch, error);
 }
 
-static fst_status ignore_special(void *user, fst_special_type type, const fst_node *at, int criticality,
-                                 const fst_node *born, fst_error *error)
-{
-    (void)user, (void)type, (void)at, (void)criticality, (void)born, (void)error;
-    return FST_OK;
-}
-
 static void climb_to_symmetric(fst_tracer *t, fst_node *start)
 {
     for (int sign = -1; sign <= 1; sign += 2) {
@@ -61,7 +54,7 @@ static void climb_to_symmetric(fst_tracer *t, fst_node *start)
                            .from = fmin(t->options->from, t->options->to),
                            .to = fmax(t->options->from, t->options->to),
                            .longest_step = t->options->longest_step,
-                           .sink = {&c, 0, remember, ignore_special}};
+                           .sink = {&c, 0, remember, NULL}};
         if (fst_curve_follow(&curve, start, sign, &why) != FST_OK || curve.end.type != FST_END_SYMMETRIC_ORBIT)
             continue;
         fst_solution s = c.last.s;

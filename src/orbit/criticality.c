@@ -1,6 +1,7 @@
 /* criticality.c - the motion beside an equilibrium, and the return beside an orbit, for their normal forms. */
 #include <string.h>
 
+#include "base/dot.h"
 #include "base/error.h"
 #include "ode/flow.h"
 #include "orbit/normal_form.h"
@@ -37,16 +38,12 @@ static void state_at(const beside *b, const double *x, double y[FST_STATE_SIZE])
 
 static fst_status field_at(void *user, const double *x, double *out, fst_error *error)
 {
-    const beside *b = user;
+    beside *b = user;
     double y[FST_STATE_SIZE], rate[FST_STATE_SIZE];
     (void)error;
     state_at(b, x, y);
-    fst_setup_rhs(&b->setup, y, rate);
-    for (int j = 0; j < FST_TANGENT_SIZE; ++j) {
-        out[j] = 0.0;
-        for (int k = 0; k < FST_STATE_SIZE; ++k)
-            out[j] += b->basis[k][j] * rate[k];
-    }
+    fst_rhs(&b->setup.model, y, rate);
+    fst_tangent_part(b->basis, rate, out);
     return FST_OK;
 }
 
@@ -55,9 +52,10 @@ static fst_status field_at(void *user, const double *x, double *out, fst_error *
 static fst_status return_at(void *user, const double *x, double *out, fst_error *error)
 {
     enum { MOST_LANDINGS = 12 };
-    const beside *b = user;
+    beside *b = user;
     const fst_solution *s = b->s;
-    double y[FST_STATE_SIZE], rate[FST_STATE_SIZE], end[FST_STATE_SIZE];
+    double y[FST_STATE_SIZE], rate[FST_STATE_SIZE], end[FST_STATE_SIZE], moved[FST_STATE_SIZE];
+    double part[FST_TANGENT_SIZE];
     double time = s->period, off = 1.0;
     fst_status status = FST_OK;
     state_at(b, x, y);
@@ -73,24 +71,18 @@ static fst_status return_at(void *user, const double *x, double *out, fst_error 
         fst_model_free(model);
         if (status != FST_OK)
             return status;
-        fst_setup_rhs(&b->setup, end, rate);
+        fst_rhs(&b->setup.model, end, rate);
         if (s->symmetric) {
             fst_apply_s2(end, end);
             fst_apply_s2(rate, rate);
         }
-        double speed = 0.0;
-        off = 0.0;
-        for (int k = 0; k < FST_STATE_SIZE; ++k) {
-            off += b->flow[k] * (end[k] - s->y[0][k]);
-            speed += b->flow[k] * rate[k];
-        }
-        time -= off / speed;
-    }
-    for (int j = 1; j < FST_TANGENT_SIZE; ++j) {
-        out[j - 1] = 0.0;
         for (int k = 0; k < FST_STATE_SIZE; ++k)
-            out[j - 1] += b->basis[k][j] * (end[k] - s->y[0][k]);
+            moved[k] = end[k] - s->y[0][k];
+        off = fst_dot(b->flow, moved, FST_STATE_SIZE);
+        time -= off / fst_dot(b->flow, rate, FST_STATE_SIZE);
     }
+    fst_tangent_part(b->basis, moved, part);
+    memcpy(out, part + 1, sizeof part - sizeof *part);
     return FST_OK;
 }
 
@@ -99,7 +91,7 @@ fst_status fst_pair_coefficient(const fst_family *family, const fst_solution *s,
 {
     beside b = {.family = family, .s = s};
     double matrix[FST_TANGENT_SIZE * FST_TANGENT_SIZE];
-    fst_local_map map = {.user = &b};
+    fst_local_map map = {.user = &b, .reach = 2e-3};
     fst_status status = fst_family_setup(family, s->value, &b.setup, error);
     if (status == FST_OK)
         status = fst_solution_section(family, s, matrix, b.basis, error);
@@ -110,11 +102,9 @@ fst_status fst_pair_coefficient(const fst_family *family, const fst_solution *s,
             b.flow[k] = b.basis[k][0];
         map.size = FST_TANGENT_SIZE - 1;
         map.is_map = 1;
-        map.reach = 2e-3;
         map.at = return_at;
     } else {
         map.size = FST_TANGENT_SIZE;
-        map.reach = 2e-3;
         map.at = field_at;
     }
     return fst_cubic_coefficient(family->lapack, &map, matrix, frequency, coefficient, spread, error);

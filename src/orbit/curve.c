@@ -31,15 +31,6 @@ enum { MOST_NODES = 4000 };
 
 /* ------------------------------------------------------------------ steps along the curve */
 
-static void combine(fst_direction *out, double a, const fst_direction *u, double b, const fst_direction *v)
-{
-    for (int i = 0; i < FST_SEGMENTS; ++i)
-        for (int k = 0; k < FST_STATE_SIZE; ++k)
-            out->y[i][k] = a * u->y[i][k] + b * v->y[i][k];
-    out->period = a * u->period + b * v->period;
-    out->value = a * u->value + b * v->value;
-}
-
 static double length_of(const fst_family *family, const fst_solution *s, const fst_direction *d)
 {
     return sqrt(fst_direction_product(family, s, d, d));
@@ -55,8 +46,9 @@ static fst_status try_step(const fst_curve *curve, const fst_node *last, const f
     fst_direction way = here->s.tangent, miss;
     if (last && here->length > 0) {
         fst_direction bend;
-        combine(&bend, 1.0 / here->length, &here->s.tangent, -1.0 / here->length, &last->s.tangent);
-        combine(&way, 1.0, &here->s.tangent, 0.5 * h, &bend);
+        fst_direction_combine(&bend, 1.0 / here->length, &here->s.tangent, -1.0 / here->length,
+                              &last->s.tangent);
+        fst_direction_combine(&way, 1.0, &here->s.tangent, 0.5 * h, &bend);
     }
     fst_solution predicted = here->s;
     predicted.on_section = 0;
@@ -111,7 +103,7 @@ static fst_status land_on(const fst_curve *curve, const fst_node *here, double b
                         here->s.value);
     fst_direction_between(&here->s, &s, &way);
     if (fst_direction_product(curve->family, &s, &s.tangent, &way) < 0.0)
-        combine(&s.tangent, -1.0, &s.tangent, 0.0, &way);
+        fst_direction_scale(&s.tangent, -1.0);
     s.value = border;
     status = fst_node_make(curve->family, &s, next, error);
     next->length = length_of(curve->family, &s, &way);
@@ -215,7 +207,7 @@ static fst_status follow(fst_curve *curve, const fst_node *start, int sign, fst_
     const double density = start->s.segments > 0 ? 1.0 : 0.04;
     double longest = density * curve->longest_step, h = 0.1 * longest;
     int nodes = 0;
-    combine(&here.s.tangent, sign, &start->s.tangent, 0.0, &start->s.tangent);
+    fst_direction_scale(&here.s.tangent, sign);
     here.length = 0.0;
     for (;;) {
         int left;
@@ -246,7 +238,7 @@ static fst_status follow(fst_curve *curve, const fst_node *start, int sign, fst_
     }
 }
 
-/* A curve that the caller stopped looks as if it could not be followed: its end is none. */
+/* A curve that the caller stopped looks as if it could not be followed: it gets no end. */
 fst_status fst_curve_follow(fst_curve *curve, const fst_node *start, int sign, fst_error *error)
 {
     curve->end = (fst_curve_end){.type = FST_END_NONE};

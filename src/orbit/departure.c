@@ -11,12 +11,13 @@
  *     --+--------*---------     the orbit
  *       |            *    a^2
  */
-#include "orbit/departure.h"
+#include "orbit/search.h"
 
 #include <string.h>
 
 #include "base/bracket.h"
 #include "base/constants.h"
+#include "base/dot.h"
 #include "ode/flow.h"
 #include "orbit/describe.h"
 
@@ -43,7 +44,7 @@ static double distance(const double *a, const double *b)
     return sqrt(sum);
 }
 
-/* The frequency of the only unstable pair; 0: there is none, or something else is unstable too. */
+/* The frequency of the only unstable pair; 0: no pair is unstable, or something else is too. */
 static double unstable_pair(const fst_solution *rest, double *growth)
 {
     double frequency = 0.0;
@@ -62,7 +63,7 @@ static double unstable_pair(const fst_solution *rest, double *growth)
 static int find_equilibrium(departure *d, const double *near, double reach)
 {
     fst_error ignored;
-    double growth = 0.0, size = 0.0;
+    double growth = 0.0;
     memset(&d->rest, 0, sizeof d->rest);
     memcpy(d->rest.y[0], near, sizeof d->rest.y[0]);
     if (fst_solution_correct(d->family, &d->rest, NULL, &ignored) != FST_OK ||
@@ -73,10 +74,9 @@ static int find_equilibrium(departure *d, const double *near, double reach)
     if (!(d->frequency > 0.0 && growth < 0.02 * d->frequency) ||
         fst_solution_eigenvector(d->family, &d->rest, growth, d->frequency, d->way, NULL, &ignored) != FST_OK)
         return 0;
+    const double size = sqrt(fst_dot(d->way, d->way, FST_STATE_SIZE));
     for (int i = 0; i < FST_STATE_SIZE; ++i)
-        size += d->way[i] * d->way[i];
-    for (int i = 0; i < FST_STATE_SIZE; ++i)
-        d->way[i] /= sqrt(size);
+        d->way[i] /= size;
     return size > 0.0;
 }
 

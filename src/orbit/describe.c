@@ -4,18 +4,14 @@
  * The window, its integrals and its extremes are those of a run (observe/), begun at the orbit's first state
  * and ended after its period.  So means of orbits and of runs are the same numbers, made by the same code;
  * those of an orbit are over exactly one period.  A symmetric orbit is followed over both halves.
- */
-/* clang-format off */
-/*
+ *
  *      r |    .-.                   .-
  *        |   /   \      .-.        /       two falls a period, each from a top to the next bottom:
  *        |  /     \    /   \      /        swing_ratio = greater fall/smaller fall - 1;
  *        | /       '--'     \    /         the lowest bottom is the closest approach to the axis
  *        |                   '--'
  *        +------------------------------ t
- */
-/* clang-format on */
-/*
+ *
  * Besides, three things are noted on the way:
  *
  * How often Phi turns in the period.  If it does not, the orbit is called librating, otherwise counter-rotating
@@ -112,7 +108,7 @@ typedef struct round_trip {
 static void mark_end(round_trip *trip)
 {
     fst_mark mark;
-    fst_window_mark(&trip->window, trip->flow, 1.0, &mark);
+    fst_mark_take(&mark, &trip->window.quadrature, trip->flow, 1.0, 1);
     fst_marks_offer(&trip->ends, &mark);
 }
 
@@ -137,7 +133,7 @@ static fst_status go_round(round_trip *trip, const fst_family *family, double pe
     const fst_twofold end = {period, 0.0};
     const fst_span span = {.from = 0.0, .until = period};
     fst_status status = FST_OK;
-    fst_window_begin(window, &span, FST_TWO_PI / trip->model->groups.omega, trip->flow);
+    fst_window_begin(window, &span, fst_drive_period_double(trip->model->groups.omega), trip->flow);
     fst_marks_begin(&trip->ends);
     mark_end(trip);
     while (status == FST_OK && fst_twofold_difference(end, trip->flow->t) > 0) {
@@ -182,7 +178,7 @@ static void conclude(const round_trip *trip, const fst_solution *s, fst_descript
                        : s->symmetric && trip->extremes_met.count == 4 ? 0.0
                                                                        : swing_ratio(&trip->extremes_met);
     out->captures = (int)trip->flow->contact.captures;
-    if (trip->model->coefficients.kinds.dry && out->turns != 0)
+    if (trip->model->world.kinds.dry && out->turns != 0)
         means->captures_per_return = (double)out->captures / abs(out->turns);
     out->least_load = trip->window.extremes[FST_TRACK_LOAD].least;
 }
@@ -195,7 +191,8 @@ fst_status fst_describe_orbit(const fst_family *family, const fst_solution *s, i
     out->closest = NAN;
     round_trip *trip = calloc(1, sizeof *trip);
     if (!trip)
-        return fst_fail(error, FST_NO_MEMORY, "fst_describe_orbit", "out of memory");
+        return fst_watch_end(family->watch,
+                             fst_fail(error, FST_NO_MEMORY, "fst_describe_orbit", "out of memory"), error);
     trip->params = fst_family_params(family, s->value);
     fst_status status =
         fst_solution_flow(family, s->value, s->y[0], family->tolerance, &trip->model, &trip->flow, error);

@@ -1,7 +1,7 @@
 /* dry_carry.c - a bundle of tangent vectors carried along a motion with dry friction (ode/neighbours.c), for
  * Newton's method and multipliers.
  */
-#include "orbit/dry_carry.h"
+#include "orbit/family.h"
 
 #include <string.h>
 
@@ -12,12 +12,10 @@ _Static_assert((int)FST_COLUMNS <= (int)FST_NEIGHBOURS, "every column has a neig
 
 enum { STEP_WORK = 60 }; /* of a step with its columns, in evaluations of the equations */
 
-static const double NO_SLIP = 1e-13; /* a slip that is none: what rounding leaves */
-
 /* Why there are no multipliers and no exponents of a motion. */
 static fst_status refuse(const fst_flow *flow, fst_error *error)
 {
-    if (fst_contact_mode(flow) == FST_MODE_FLIGHT || flow->contact.next_mode == FST_MODE_FLIGHT)
+    if (fst_contact_mode(flow) == FST_MODE_FLIGHT || flow->contact.slip.next == FST_MODE_FLIGHT)
         return fst_fail(
             error, FST_NO_CONVERGENCE, "tangents",
             "the bead leaves the plate at t = %.6g. Its neighbours land at other places and times, and are "
@@ -48,7 +46,7 @@ static fst_status follow(const fst_setup *setup, fst_neighbours *b, fst_flow *fl
         if (!fst_neighbours_known(flow))
             return refuse(flow, error);
         fst_neighbours_follow(b, flow);
-        if (setup->sticks && fst_sticks_double(&flow->step.context.coefficients) > 0.5)
+        if (setup->sticks && fst_sticks_double(fst_flow_world(flow), fst_flow_modes(flow)) > 0.5)
             *setup->sticks = 1;
     }
     fst_neighbours_at_equal_times(b, flow);
@@ -82,22 +80,4 @@ fst_status fst_dry_carry(const fst_setup *setup, double tolerance, double durati
             tangent[i][column] = b.d[column][i];
     fst_flow_free(flow);
     return status;
-}
-
-void fst_dry_coefficients(const fst_setup *setup, const double *y, fst_coefficients_double *out)
-{
-    double slip[2];
-    *out = setup->model.coefficients;
-    if (!out->kinds.paced)
-        return;
-    fst_slip_double(out, y, slip);
-    const int rests = !out->kinds.patch && slip[0] * slip[0] + slip[1] * slip[1] <= NO_SLIP * NO_SLIP &&
-                      fst_grip(out, y) >= 0.0;
-    const int always = setup->model.groups.friction == FST_FRICTION_ROLLING;
-    out->law.coulomb.mode = always || rests ? FST_MODE_STICK : FST_MODE_SLIP;
-    if (out->kinds.resists) {
-        fst_pull_double pull;
-        fst_magnetic_pull_double(out, y, &pull);
-        fst_find_rest_double(out, y, &pull);
-    }
 }

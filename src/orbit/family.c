@@ -2,23 +2,19 @@
  *
  * Whatever is followed over a parameter p is a family: the same scene, with another value in one field.  A
  * setup is one member: a model, and, unless p is the drive's omega, whose derivative is known exactly, the
- * coefficients of two neighbours, from which the derivative of the equations by p is taken as a difference.
+ * worlds of two neighbours, from which the derivative of the equations by p is taken as a difference.
  *
  * Newton's method and multipliers need to know how the end y(T) of a motion changes with its start and with p.
  * A bundle carries that along with the state: ten tangent vectors ("columns") that obey the equations
  * linearised about the moving state,
- */
-/* clang-format off */
-/*
+ *
  *       y' = f(y, p)                     start                          end
  *       t' = J(y) t                        y *------------------------->* y(T)
  *       s' = J(y) s + f_p                    |                           \
  *                                        t_i v                            v t_i(T)
  *
  *       t_i(T): how the end moves when the start moves along t_i
- */
-/* clang-format on */
-/*
+ *
  * Nine columns t begin as a basis of the directions in which a state can move (|n| = 1 leaves nine of ten); the
  * tenth, s, begins as zero and gathers what a change of p does on the way.  State and columns are one system of
  * 110 numbers, stepped by the same method as a run, with step sizes that keep the state exact first and the
@@ -30,9 +26,9 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "model/modes.h"
 #include "model/tangent.inl"
 #include "ode/flow.h"
-#include "orbit/dry_carry.h"
 
 /* ------------------------------------------------------------------ the state with its tangents */
 
@@ -58,12 +54,13 @@ static void bundle_rhs(const bundle_context *context, const double *y, double *d
 static void bundle_rhs(const bundle_context *context, const double *y, double *dy)
 {
     const fst_setup *setup = context->setup;
-    const fst_coefficients_double *c = &setup->model.coefficients;
+    const fst_world_double *c = &setup->model.world;
     const double *columns = y + FST_STATE_SIZE;
     double *changes = dy + FST_STATE_SIZE;
     double tangent[FST_STATE_SIZE], change[FST_STATE_SIZE], by[FST_STATE_SIZE] = {0};
     fst_linear_double linear;
-    fst_linearise_double(c, c->omega, y, &linear, dy);
+    fst_linearise_double(c, NULL, c->omega, y, &linear,
+                         dy); /* of laws without modes: fst_dry_carry() has others */
     if (setup->differs)
         fst_setup_by_parameter(setup, y, by);
     for (int column = 0; column < FST_COLUMNS; ++column) {
@@ -96,12 +93,12 @@ static fst_status carry_failed(double t, const double *y, int finite, fst_error 
 fst_status fst_carry(const fst_setup *setup, double tolerance, double duration, double y[FST_STATE_SIZE],
                      double tangent[FST_STATE_SIZE][FST_COLUMNS], fst_error *error)
 {
-    if (setup->model.coefficients.kinds.dry)
+    if (setup->model.world.kinds.dry)
         return fst_dry_carry(setup, tolerance, duration, y, tangent, error);
     fst_bundle_step_double s;
     double atol[FST_BUNDLE_SIZE];
     s.context.setup = setup;
-    s.omega = setup->model.coefficients.omega;
+    s.omega = setup->model.world.omega;
     s.ramp = 0.0;
     memcpy(s.y, y, FST_STATE_SIZE * sizeof *y);
     memcpy(s.y + FST_STATE_SIZE, tangent, sizeof(double[FST_STATE_SIZE][FST_COLUMNS]));
@@ -159,6 +156,15 @@ void fst_tangent_basis(const double *y, double basis[FST_STATE_SIZE][FST_TANGENT
     }
 }
 
+void fst_tangent_part(double basis[FST_STATE_SIZE][FST_TANGENT_SIZE], const double *v, double *part)
+{
+    for (int j = 0; j < FST_TANGENT_SIZE; ++j) {
+        part[j] = 0.0;
+        for (int i = 0; i < FST_STATE_SIZE; ++i)
+            part[j] += basis[i][j] * v[i];
+    }
+}
+
 /* ------------------------------------------------------------------ the parameter */
 
 /* The value of a parameter in a scene where it may only follow from others. */
@@ -184,6 +190,10 @@ fst_status fst_family_begin(fst_family *family, const fst_params *params, const 
     family->key = -1;
     family->scale = 1.0;
     fst_family_tighten(family, 1e-13);
+    fst_status status = fst_params_settle(&family->params, error);
+    if (status != FST_OK)
+        return status;
+    family->params.run_rtol = family->tolerance; /* a slip that is nothing to a coarse run is one here */
     if (key) {
         family->key = fst_param_find(key);
         const fst_param_info *info = fst_param_at(family->key);
@@ -192,7 +202,7 @@ fst_status fst_family_begin(fst_family *family, const fst_params *params, const 
                             "%s is no parameter with real values: fst_param_at() lists them", key);
         /* Setting it once clears the other forms of the quantity. */
         fst_model *model = NULL;
-        fst_status status = fst_model_new(params, &model, error);
+        status = fst_model_new(params, &model, error);
         if (status != FST_OK)
             return status;
         const fst_groups groups = fst_model_groups(model);
@@ -238,14 +248,13 @@ double fst_family_value(const fst_family *family)
     return value;
 }
 
+/* The family's parameters keep the map of a measured field. */
 static fst_status model_at(const fst_family *family, double value, fst_model *out, fst_error *error)
 {
     const fst_params params = fst_family_params(family, value);
-    fst_model *model = NULL;
-    const fst_status status = fst_model_new(&params, &model, error);
+    const fst_status status = fst_model_fill(&params, NAN, out, error);
     if (status == FST_OK)
-        *out = *model;
-    fst_model_free(model);
+        fst_field_map_free(out->map);
     return status;
 }
 
@@ -265,22 +274,10 @@ fst_status fst_family_setup(const fst_family *family, double value, fst_setup *s
         status = model_at(family, value + step, &above, error);
     if (status != FST_OK)
         return status;
-    setup->below = below.coefficients;
-    setup->above = above.coefficients;
+    setup->below = below.world;
+    setup->above = above.world;
     setup->spread = 2.0 * step;
     return FST_OK;
-}
-
-void fst_setup_rhs(const fst_setup *setup, const double *y, double *dy)
-{
-    fst_pull_double pull;
-    if (setup->model.coefficients.kinds.paced) {
-        fst_coefficients_double c;
-        fst_dry_coefficients(setup, y, &c);
-        fst_rhs_double(&c, c.omega, y, dy, &pull);
-        return;
-    }
-    fst_rhs_double(&setup->model.coefficients, setup->model.coefficients.omega, y, dy, &pull);
 }
 
 void fst_setup_by_parameter(const fst_setup *setup, const double *y, double *by)
@@ -292,10 +289,11 @@ void fst_setup_by_parameter(const fst_setup *setup, const double *y, double *by)
         fst_rhs_by_omega_double(y, by);
         return;
     }
+    const fst_motion_double at = fst_motion_at(&setup->model.world, y, setup->model.params.run_rtol);
     fst_pull_double pull;
     double below[FST_STATE_SIZE];
-    fst_rhs_double(&setup->below, setup->below.omega, y, below, &pull);
-    fst_rhs_double(&setup->above, setup->above.omega, y, by, &pull);
+    fst_rhs_double(&setup->below, &at.modes, setup->below.omega, at.numbers, below, &pull);
+    fst_rhs_double(&setup->above, &at.modes, setup->above.omega, at.numbers, by, &pull);
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         by[i] = (by[i] - below[i]) / setup->spread;
 }

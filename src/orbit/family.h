@@ -21,17 +21,17 @@ typedef struct fst_family {
     double residual;  /* at which a solution counts as found */
     double location;  /* value of a test at which a special point counts as found */
     const fst_lapack *lapack;
-    fst_watch *watch; /* NULL: nobody is told, and nobody stops the work */
+    fst_watch *watch; /* NULL: no reports, and the work cannot be stopped */
 } fst_family;
 
-/* One of them: the coefficients, and two neighbours for the derivative by the parameter.  The drive's omega
+/* One of them: the world, and two neighbours for the derivative by the parameter.  The drive's omega
  * needs none, for its derivative is exact; that of the others enters Newton's matrix alone, and so bears on the
  * number of iterations, not on the result. */
 typedef struct fst_setup {
     fst_model model;
     int exact;   /* the parameter is omega */
     int differs; /* the derivative by the parameter is wanted */
-    fst_coefficients_double below, above;
+    fst_world_double below, above;
     double spread;    /* of the parameter between them */
     fst_watch *watch; /* the family's */
     int *sticks;      /* set to 1 where the contact comes to rest on a way (NULL: nobody asks) */
@@ -63,8 +63,7 @@ fst_status fst_family_setup(const fst_family *family, double value, fst_setup *s
 /* The parameter's value in family->params. */
 double fst_family_value(const fst_family *family);
 
-/* d(state)/dt, and its derivative by the free parameter. */
-void fst_setup_rhs(const fst_setup *setup, const double *y, double *dy);
+/* The derivative of d(state)/dt by the free parameter. */
 void fst_setup_by_parameter(const fst_setup *setup, const double *y, double *by);
 
 /* Carry a state and FST_COLUMNS tangent vectors (tangent[i][c]: component i of column c) over `duration`.  The
@@ -73,8 +72,15 @@ void fst_setup_by_parameter(const fst_setup *setup, const double *y, double *by)
 fst_status fst_carry(const fst_setup *setup, double tolerance, double duration, double y[FST_STATE_SIZE],
                      double tangent[FST_STATE_SIZE][FST_COLUMNS], fst_error *error);
 
+/* The same under the laws whose contact can stick, through its changes of mode (dry_carry.c). */
+fst_status fst_dry_carry(const fst_setup *setup, double tolerance, double duration, double y[FST_STATE_SIZE],
+                         double tangent[FST_STATE_SIZE][FST_COLUMNS], fst_error *error);
+
 /* An orthonormal basis of the tangent space at y: basis[i][j] is component i of vector j.  Seven vectors lie
  * along the axes; two span the plane across n. */
 void fst_tangent_basis(const double *y, double basis[FST_STATE_SIZE][FST_TANGENT_SIZE]);
+
+/* The components of v in such a basis. */
+void fst_tangent_part(double basis[FST_STATE_SIZE][FST_TANGENT_SIZE], const double *v, double *part);
 
 #endif

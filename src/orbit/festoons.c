@@ -4,18 +4,14 @@
  * bead goes once round in the laboratory, 1 + omega/|<alpha'>| periods pass; each makes a festoons, a = 2 for a
  * symmetric orbit (S2) and 1 for another (S1), so N = a (1 + omega/|<alpha'>|).  It is known at every point of
  * the counter-rotating branch over omega, and a wanted N is looked for between neighbouring points:
- */
-/* clang-format off */
-/*
+ *
  *       N |                 x  x        x: points of the branch
  *         |              x
  *  wanted |. . . . . . o                o: found by bracketing; each orbit tried is interpolated between the
  *         |          x                     neighbours and corrected by Newton's method
  *         |    x  x
  *         +---------------------- along the branch
- */
-/* clang-format on */
-/*
+ *
  * Runs would not do: their N is a mean with an error, and they show only the orbit that their start leads to.
  *
  * At a pitchfork a falls from 2 to 1, and N to its half, so numbers in the gap between the S2 and the S1 orbits
@@ -33,10 +29,9 @@
 #include "base/bracket.h"
 #include "base/constants.h"
 #include "base/error.h"
+#include "base/grow.h"
 
-/* N of a counter-rotating orbit from its whole period alone: N = a (1 + omega/|<alpha'>|), alpha' = omega - 2
- * pi/T.
- */
+/* N of a counter-rotating orbit from its whole period alone. */
 static double festoons_at(double omega, double period, int symmetric)
 {
     const double alpha_dot = omega - FST_TWO_PI / period;
@@ -131,13 +126,8 @@ static fst_status locate(const fst_family *family, const fst_node *a, const fst_
 
 static fst_status add(fst_festoon_list *list, const fst_orbit *orbit, fst_error *error)
 {
-    fst_orbit *orbits = realloc(list->orbits, (list->count + 1) * sizeof *orbits);
-    if (orbits)
-        list->orbits = orbits;
-    double *omegas = realloc(list->omegas, (list->count + 1) * sizeof *omegas);
-    if (omegas)
-        list->omegas = omegas;
-    if (!orbits || !omegas)
+    if (!fst_grow(&list->orbits, list->count, sizeof *list->orbits) ||
+        !fst_grow(&list->omegas, list->count, sizeof *list->omegas))
         return fst_fail(error, FST_NO_MEMORY, "festoons", "out of memory");
     for (size_t i = 0; i < list->count; ++i) /* met from both sides of a branch point */
         if (fabs(list->omegas[i] - orbit->means.omega) < 1e-11 &&
@@ -146,8 +136,8 @@ static fst_status add(fst_festoon_list *list, const fst_orbit *orbit, fst_error 
     size_t place = list->count;
     while (place > 0 && list->omegas[place - 1] > orbit->means.omega)
         --place;
-    memmove(list->orbits + place + 1, list->orbits + place, (list->count - place) * sizeof *orbits);
-    memmove(list->omegas + place + 1, list->omegas + place, (list->count - place) * sizeof *omegas);
+    memmove(list->orbits + place + 1, list->orbits + place, (list->count - place) * sizeof *list->orbits);
+    memmove(list->omegas + place + 1, list->omegas + place, (list->count - place) * sizeof *list->omegas);
     list->orbits[place] = *orbit;
     list->omegas[place] = orbit->means.omega;
     list->count += 1;
@@ -227,12 +217,12 @@ static fst_status look_beside(const fst_family *family, const fst_branch *branch
 /* The branch has a gap in N: where the period halves, N doubles. */
 static fst_status none_closes(const fst_festoon_list *list, double festoons, fst_error *error)
 {
-    static const char *const names[2] = {"S1", "S2"};
+    static const fst_symmetry symmetries[2] = {FST_SYMMETRY_S1, FST_SYMMETRY_S2};
     char reach[2][80] = {"", ""};
     for (int part = 0; part < 2; ++part)
         if (list->least[part] <= list->greatest[part])
             (void)snprintf(reach[part], sizeof reach[part], "; N is from %.6g to %.6g on its %s orbits",
-                           list->least[part], list->greatest[part], names[part]);
+                           list->least[part], list->greatest[part], fst_symmetry_name(symmetries[part]));
     return fst_fail(error, FST_NO_CONVERGENCE, "festoons",
                     "no stable pattern closes after %.10g festoons: the stable counter-rotating branch reaches "
                     "from omega = %.8g to %.8g%s%s",
@@ -256,7 +246,7 @@ static fst_status festoons_on(const fst_params *params, const fst_branch *branch
         return status;
     if (branch->kind != FST_BRANCH_COUNTER || strcmp(branch->key, "drive.omega") != 0 || branch->second_key[0])
         return fst_fail(error, FST_BAD_INPUT, "festoons",
-                        "the branch is none of counter-rotation over drive.omega");
+                        "the branch is not one of counter-rotation over drive.omega");
     fst_family family;
     status = fst_family_begin(&family, params, "drive.omega", error);
     family.watch = watch;

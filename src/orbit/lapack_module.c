@@ -1,21 +1,54 @@
-/* lapack_module.c - festoon-lapack.so: the few calls of LAPACK, by LAPACKE. */
+/* lapack_module.c - festoon-lapack.so: the few calls of LAPACK, by LAPACKE, in memory of our own: what LAPACKE
+ * cannot allocate it would tell by the status of a matrix that has no solution. */
 #include "orbit/lapack.h"
 
 #include <lapacke.h>
+#include <math.h>
 
-enum { LARGEST = 64 }; /* systems of this room have at most 38 unknowns */
+enum {
+    LARGEST = 64,       /* systems of this room have at most 38 unknowns */
+    WORK = LARGEST * 96 /* dgeev() asks for less: blocks of 32 or 64 columns */
+};
+
+/* Rows become columns: `to` has `columns` rows.  0 where an element is no number. */
+static int turn(int rows, int columns, const double *from, double *to)
+{
+    int numbers = 1;
+    for (int i = 0; i < rows; ++i)
+        for (int j = 0; j < columns; ++j) {
+            to[j * rows + i] = from[i * columns + j];
+            numbers = numbers && !isnan(from[i * columns + j]);
+        }
+    return numbers;
+}
 
 static int solve(int n, int columns, double *a, double *b)
 {
     lapack_int pivots[LARGEST];
-    if (n > LARGEST)
+    double left[LARGEST * LARGEST], right[LARGEST * LARGEST];
+    if (n > LARGEST || columns > LARGEST || !turn(n, n, a, left) || !turn(n, columns, b, right))
         return -1;
-    return (int)LAPACKE_dgesv(LAPACK_ROW_MAJOR, n, columns, a, n, pivots, b, columns);
+    const lapack_int singular = LAPACKE_dgesv_work(LAPACK_COL_MAJOR, n, columns, left, n, pivots, right, n);
+    (void)turn(n, n, left, a);
+    (void)turn(columns, n, right, b);
+    return (int)singular;
 }
 
 static int eigen(int n, double *a, double *re, double *im, double *vectors)
 {
-    return (int)LAPACKE_dgeev(LAPACK_ROW_MAJOR, 'N', vectors ? 'V' : 'N', n, a, n, re, im, NULL, n, vectors, n);
+    double turned[LARGEST * LARGEST], found[LARGEST * LARGEST], work[WORK], size;
+    const char wanted = vectors ? 'V' : 'N';
+    if (n > LARGEST || !turn(n, n, a, turned))
+        return -1;
+    lapack_int failed =
+        LAPACKE_dgeev_work(LAPACK_COL_MAJOR, 'N', wanted, n, turned, n, re, im, NULL, n, found, n, &size, -1);
+    if (failed || size > WORK)
+        return -1;
+    failed = LAPACKE_dgeev_work(LAPACK_COL_MAJOR, 'N', wanted, n, turned, n, re, im, NULL, n, found, n, work,
+                                (lapack_int)size);
+    if (vectors)
+        (void)turn(n, n, found, vectors);
+    return (int)failed;
 }
 
 FST_API extern const fst_lapack fst_lapack_module;

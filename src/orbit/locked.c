@@ -1,19 +1,15 @@
 /* locked.c - every equilibrium: the bead goes round with the magnet.
  *
- * In the turning frame a locked bead is a zero of nine equations.  Nothing tells how many there are; they are
+ * In the turning frame a locked bead is a zero of nine equations.  Nothing says how many there are; they are
  * looked for by Newton's method from many starts, which a Halton sequence spreads evenly.  A start already
  * obeys what follows from rest:
- */
-/* clang-format off */
-/*
+ *
  *      place (X, Y)      in a disc, more densely near the axis
  *      v, W              follow: v = omega e x x, and W = omega e + c n, so that n stands still
  *      n                 a third anywhere, a third in the plane of e_r and e_z, where the contact can roll
  *                        without slip, and a third there at the angle that belongs to a spin from 1 to 1000
  *      c                 so that the contact slips least
- */
-/* clang-format on */
-/*
+ *
  * Each state that is found gives a further start, its image under S2.  States whose numbers agree to 1e-6 are
  * one, and how many starts led to it is reported.
  *
@@ -23,7 +19,7 @@
  * To follow them over a parameter they are searched at several values, more closely spaced at the low end, and
  * a state is skipped if a branch already passes through it.
  */
-#include "orbit/locked.h"
+#include "orbit/tracer.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -44,12 +40,9 @@ static double radical_inverse(int index, int base)
     return value;
 }
 
-/* A start of Newton's method: the place in a disc (more densely near the axis) and n, or the spin, from a
- * Halton sequence; v and W as they must be for n to stand still and the contact to slip least: at an
- * equilibrium v = omega e x x and W = omega e + c n, which leaves the spin c.  The contact can hardly slip
- * where the field is weak, and rolls without slip only if n lies in the plane of e_r and e_z, with c n_r =
- * -omega r/eps: a third of the starts have it there at any angle, a third at that of a spin between 1 and 1000
- * (families end with their spin growing without bound), and the rest anywhere. */
+/* A start of Newton's method.  The contact can hardly slip where the field is weak, and rolls without slip only
+ * if n lies in the plane of e_r and e_z, with c n_r = -omega r/eps; families end with their spin growing
+ * without bound. */
 static void start_at(const fst_setup *setup, int index, double y[FST_STATE_SIZE])
 {
     const double omega = setup->model.groups.omega;
@@ -120,10 +113,10 @@ static int is_possible(const finder *f, const fst_solution *s)
     fst_pull_double pull;
     if (fst_family_setup(f->family, s->value, &setup, &ignored) != FST_OK)
         return 0;
-    const fst_coefficients_double *c = &setup.model.coefficients;
+    const fst_world_double *c = &setup.model.world;
     if (hypot(s->y[0][FST_X], s->y[0][FST_Y]) > setup.model.groups.map_radius)
         return 0;
-    fst_magnetic_pull_double(c, s->y[0], &pull);
+    fst_pull_at_double(c, s->y[0], c->height, &pull);
     return !c->kinds.dry || fst_load_double(c, pull.force) > 0.0;
 }
 
@@ -253,7 +246,6 @@ void fst_locked_free(fst_locked_list *list)
     memset(list, 0, sizeof *list);
 }
 
-/* Every family: the equilibria at several values, each followed unless a branch already passes through it. */
 fst_status fst_follow_locked(fst_tracer *t, fst_error *error)
 {
     enum { SLICES = 12, FEWER_STARTS = 900 };

@@ -2,23 +2,19 @@
  *
  * Nine tangent vectors are carried along with the state (family.c), as many as there are directions.  All of
  * them would turn into the direction that grows fastest; so after each short piece of time they are made
- * orthonormal again, in their order, and their lengths just before tell how much they grew:
- */
-/* clang-format off */
-/*
+ * orthonormal again, in their order, and their lengths just before show how much they grew:
+ *
  *      t_2 |           t_2 /            | t_2
  *          |     -->      /  t_1  -->   |            log of both lengths, summed up: exponents times time
  *          '---- t_1     '------        '---- t_1
  *       orthonormal      carried        orthonormal
- */
-/* clang-format on */
-/*
+ *
  * The first vector then grows at the greatest rate, the first two span areas that grow at the sum of the two
  * greatest, and so on.  A piece is so short that the fastest shrinking direction is not lost in rounding.
  *
  * First the state alone goes on to the end of run.discard, then the vectors turn into place for some drive
  * periods.  The rates and their errors come from growth.c; an error cannot be smaller than what may remain of
- * the turning into place.  Two exponents closer than the time can tell apart get wider errors.
+ * the turning into place.  Two exponents too close to be separated in the time get wider errors.
  *
  * The mean divergence of the equations is measured beside them: the exponents must add up to it.  If the bead
  * moves in the turning frame, one exponent belongs to the direction of the flow and must be zero.
@@ -28,6 +24,7 @@
 #include <string.h>
 
 #include "base/constants.h"
+#include "base/dot.h"
 #include "base/error.h"
 #include "base/watch.h"
 #include "ode/flow.h"
@@ -64,71 +61,67 @@ typedef struct spectrum {
     double passed, whole; /* of the work: the time since the start, and all of it */
 } spectrum;
 
-/* Dry friction: a contact that came to rest has left nothing of this column that the ones before do not have.
- * Its exponent is minus infinity; any direction across them takes its place. */
-static void lose_direction(spectrum *s, int c)
+/* Take the part along n out of a tangent vector. */
+static void take_out_n(const spectrum *s, double *v)
 {
-    s->lost[c] = 1;
-    for (int axis = 0; axis < FST_STATE_SIZE; ++axis) {
-        double v[FST_STATE_SIZE] = {0}, length = 0.0;
-        v[axis] = 1.0;
-        const double *n = s->y + FST_NX;
-        for (int pass = 0; pass < 2; ++pass) {
-            const double outward = v[FST_NX] * n[0] + v[FST_NY] * n[1] + v[FST_NZ] * n[2];
-            for (int i = 0; i < 3; ++i)
-                v[FST_NX + i] -= outward * n[i];
-            for (int before = 0; before < c; ++before) {
-                double along = 0.0;
-                for (int i = 0; i < FST_STATE_SIZE; ++i)
-                    along += v[i] * s->tangent[i][before];
-                for (int i = 0; i < FST_STATE_SIZE; ++i)
-                    v[i] -= along * s->tangent[i][before];
-            }
-        }
+    const double *n = s->y + FST_NX, outward = fst_dot(n, v + FST_NX, 3);
+    for (int i = 0; i < 3; ++i)
+        v[FST_NX + i] -= outward * n[i];
+}
+
+/* The same with the parts along the first columns; what is left has the square of this length. */
+static double take_out_columns(const spectrum *s, int columns, double *v)
+{
+    for (int before = 0; before < columns; ++before) {
+        double along = 0.0;
         for (int i = 0; i < FST_STATE_SIZE; ++i)
-            length += v[i] * v[i];
-        if (!(length > 0.05)) /* nine axes less at most eight columns: one of them is far enough across */
-            continue;
+            along += v[i] * s->tangent[i][before];
         for (int i = 0; i < FST_STATE_SIZE; ++i)
-            s->tangent[i][c] = v[i] / sqrt(length);
-        return;
+            v[i] -= along * s->tangent[i][before];
     }
+    return fst_dot(v, v, FST_STATE_SIZE);
+}
+
+/* Dry friction: a contact that came to rest has left nothing of column c that the ones before do not have.  Its
+ * exponent is minus infinity; any direction across them, of length 1, takes its place. */
+static void lose_direction(spectrum *s, int c, double *v)
+{
+    double square = 0.0;
+    s->lost[c] = 1;
+    /* Of nine axes, less at most eight columns, one is far enough across. */
+    for (int axis = 0; axis < FST_STATE_SIZE && !(square > 0.05); ++axis) {
+        memset(v, 0, FST_STATE_SIZE * sizeof *v);
+        v[axis] = 1.0;
+        for (int pass = 0; pass < 2; ++pass) {
+            take_out_n(s, v);
+            square = take_out_columns(s, c, v);
+        }
+    }
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        v[i] /= sqrt(square);
 }
 
 /* Make the columns orthonormal (modified Gram-Schmidt, twice against rounding), and note how they grew. */
 static void orthonormalise(spectrum *s)
 {
-    const double *n = s->y + FST_NX;
     for (int c = 0; c < N; ++c) {
-        double total = 1.0, outward = 0.0, whole = 0.0;
+        double total = 1.0, v[FST_STATE_SIZE];
         for (int i = 0; i < FST_STATE_SIZE; ++i)
-            whole += s->tangent[i][c] * s->tangent[i][c];
-        /* Rounding along n, where nothing shrinks, would in time overgrow what does. */
-        for (int i = 0; i < 3; ++i)
-            outward += n[i] * s->tangent[FST_NX + i][c];
-        for (int i = 0; i < 3; ++i)
-            s->tangent[FST_NX + i][c] -= outward * n[i];
+            v[i] = s->tangent[i][c];
+        const double whole = sqrt(fst_dot(v, v, FST_STATE_SIZE));
+        take_out_n(s, v); /* rounding along n, where nothing shrinks, would in time overgrow what does */
         for (int pass = 0; pass < 2; ++pass) {
-            for (int before = 0; before < c; ++before) {
-                double along = 0.0;
-                for (int i = 0; i < FST_STATE_SIZE; ++i)
-                    along += s->tangent[i][c] * s->tangent[i][before];
-                for (int i = 0; i < FST_STATE_SIZE; ++i)
-                    s->tangent[i][c] -= along * s->tangent[i][before];
-            }
-            double length = 0.0;
-            for (int i = 0; i < FST_STATE_SIZE; ++i)
-                length += s->tangent[i][c] * s->tangent[i][c];
-            length = sqrt(length);
-            if (pass == 0 && s->setup.model.coefficients.kinds.dry &&
-                !(length > LOST * fmax(1.0, sqrt(whole)))) {
-                lose_direction(s, c);
+            const double length = sqrt(take_out_columns(s, c, v));
+            if (pass == 0 && s->setup.model.world.kinds.dry && !(length > LOST * fmax(1.0, whole))) {
+                lose_direction(s, c, v);
                 break;
             }
             for (int i = 0; i < FST_STATE_SIZE; ++i)
-                s->tangent[i][c] /= length;
+                v[i] /= length;
             total *= length;
         }
+        for (int i = 0; i < FST_STATE_SIZE; ++i)
+            s->tangent[i][c] = v[i];
         s->logarithm[c] = log(total);
     }
 }
@@ -218,8 +211,8 @@ static void conclude(const spectrum *s, fst_lyapunov *out)
     }
 }
 
-/* Two directions that shrink at nearly the same rate tell themselves apart only after the time 1/(difference).
- * Before, their columns share the two rates in some proportion that no part of the time tells from another:
+/* Two directions that shrink at nearly the same rate separate only after the time 1/(difference).
+ * Before, their columns share the two rates in some proportion, the same in every part of the time:
  * each is off by a part of the true difference, of which the seen one is a part too. */
 static void widen_pairs(fst_lyapunov *out)
 {
@@ -276,7 +269,7 @@ static fst_status measure(spectrum *s, double duration, double period, fst_lyapu
     if (status != FST_OK)
         return status;
     double speed = 0.0, rate[FST_STATE_SIZE];
-    fst_setup_rhs(&s->setup, s->y, rate);
+    fst_rhs(&s->setup.model, s->y, rate);
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         speed = fmax(speed, fabs(rate[i]));
     out->time = duration;
@@ -290,7 +283,7 @@ static fst_status measure(spectrum *s, double duration, double period, fst_lyapu
     return FST_OK;
 }
 
-/* Steps to the end of run.discard, between which the caller is told. */
+/* Steps to the end of run.discard; the caller hears of progress between them. */
 static fst_status steps_until(spectrum *s, fst_flow *flow, double end, fst_error *error)
 {
     const fst_twofold until = {end, 0.0};
@@ -340,12 +333,12 @@ fst_status fst_lyapunov_find(const fst_params *params, const fst_progress *progr
     memset(&family, 0, sizeof family);
     family.params = *params;
     family.key = -1;
-    s.tolerance = fmax(params->run_rtol, 1e-10);
+    s.tolerance = fmax(params->run_rtol, FST_DEFAULT_RTOL);
     s.progress = progress;
     fst_status status = fst_family_setup(&family, 0.0, &s.setup, error);
     if (status != FST_OK)
         return status;
-    const double period = FST_TWO_PI / s.setup.model.groups.omega;
+    const double period = fst_drive_period_double(s.setup.model.groups.omega);
     const double discarded = fst_run_discard(params), measured = params->run_periods - discarded;
     s.whole = (DISCARD_WORK * discarded + ALIGNING + measured) * period;
     status = discard(&s, &family, discarded * period, error);

@@ -14,7 +14,7 @@
  * An orbit with the symmetry S2 needs half of that: the image under S2 of where half a turn ends is the start,
  * and T is the time of half a turn.
  *
- * Each iteration integrates every segment together with tangent vectors (family.c), which tell how its end
+ * Each iteration integrates every segment together with tangent vectors (family.c), which show how its end
  * moves when its start or p does.  Its linear system for the corrections dy0, dy1, dT, dp:
  *
  *       | D0      -1      f/2   d0  |  dy0       gap 1      D: derivative of a segment's end by its start
@@ -36,6 +36,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/dot.h"
 #include "base/error.h"
 
 /* A Newton correction longer than this leaves the range in which the linear system is a good approximation.
@@ -45,31 +46,13 @@
 /* Of an iteration without the integrations, in evaluations of the equations: the linear system. */
 enum { ITERATION_WORK = 20 };
 
-static double dot(const double *a, const double *b, int n)
-{
-    double sum = 0.0;
-    for (int i = 0; i < n; ++i)
-        sum += a[i] * b[i];
-    return sum;
-}
-
-/* out = basis^T v */
-static void project(double basis[FST_STATE_SIZE][FST_TANGENT_SIZE], const double *v, double *out)
-{
-    for (int j = 0; j < FST_TANGENT_SIZE; ++j) {
-        out[j] = 0.0;
-        for (int i = 0; i < FST_STATE_SIZE; ++i)
-            out[j] += basis[i][j] * v[i];
-    }
-}
-
 double fst_direction_product(const fst_family *family, const fst_solution *of, const fst_direction *a,
                              const fst_direction *b)
 {
     const int states = fst_states_of(of);
     double sum = 0.0;
     for (int i = 0; i < states; ++i)
-        sum += dot(a->y[i], b->y[i], FST_STATE_SIZE) / states;
+        sum += fst_dot(a->y[i], b->y[i], FST_STATE_SIZE) / states;
     return sum + 0.0025 * (a->period * b->period) + a->value * b->value / (family->scale * family->scale);
 }
 
@@ -86,18 +69,19 @@ void fst_direction_between(const fst_solution *from, const fst_solution *to, fst
 static void normalise(double *y)
 {
     double *n = y + FST_NX;
-    const double length = sqrt(dot(n, n, 3));
+    const double length = sqrt(fst_dot(n, n, 3));
     for (int i = 0; i < 3; ++i)
         n[i] /= length;
 }
 
-void fst_direction_scale(fst_direction *direction, double factor)
+void fst_direction_combine(fst_direction *out, double a, const fst_direction *u, double b,
+                           const fst_direction *v)
 {
     for (int i = 0; i < FST_SEGMENTS; ++i)
         for (int k = 0; k < FST_STATE_SIZE; ++k)
-            direction->y[i][k] *= factor;
-    direction->period *= factor;
-    direction->value *= factor;
+            out->y[i][k] = a * u->y[i][k] + b * v->y[i][k];
+    out->period = a * u->period + b * v->period;
+    out->value = a * u->value + b * v->value;
 }
 
 void fst_solution_move(fst_solution *s, const fst_direction *direction, double length)
@@ -116,7 +100,7 @@ void fst_solution_move(fst_solution *s, const fst_direction *direction, double l
 static void put_residual(fst_newton_system *l, fst_solution *s, int row, const double *defect)
 {
     double projected[FST_TANGENT_SIZE];
-    project(l->basis[row / FST_TANGENT_SIZE], defect, projected);
+    fst_tangent_part(l->basis[row / FST_TANGENT_SIZE], defect, projected);
     for (int j = 0; j < FST_TANGENT_SIZE; ++j) {
         l->b[row + j] = -projected[j];
         if (!(fabs(projected[j]) <= s->residual))
@@ -130,10 +114,10 @@ static fst_status contact_slips(const fst_setup *setup, const fst_solution *s, f
 {
     const double least = 1e-9;
     double slip[2];
-    if (!setup->model.coefficients.kinds.dry || setup->model.coefficients.kinds.patch)
+    if (!setup->model.world.kinds.dry || setup->model.world.kinds.patch)
         return FST_OK;
-    fst_slip_double(&setup->model.coefficients, s->y[0], slip);
-    if (setup->model.coefficients.kinds.paced && hypot(slip[0], slip[1]) > least)
+    fst_slip_double(&setup->model.world, s->y[0], slip);
+    if (setup->model.world.kinds.modes && hypot(slip[0], slip[1]) > least)
         return FST_OK;
     return fst_fail(error, FST_NO_CONVERGENCE, "Newton's method",
                     "the contact does not slip at %.10g: under dry friction such states are not isolated",
@@ -144,7 +128,7 @@ static void equilibrium_equations(const fst_setup *setup, fst_solution *s, fst_n
 {
     double f[FST_STATE_SIZE], jacobian[FST_STATE_SIZE][FST_STATE_SIZE], by[FST_STATE_SIZE],
         part[FST_TANGENT_SIZE];
-    fst_setup_rhs(setup, s->y[0], f);
+    fst_rhs(&setup->model, s->y[0], f);
     fst_jacobian(&setup->model, s->y[0], jacobian, NULL);
     fst_setup_by_parameter(setup, s->y[0], by);
     l->rows = FST_TANGENT_SIZE;
@@ -154,11 +138,11 @@ static void equilibrium_equations(const fst_setup *setup, fst_solution *s, fst_n
         for (int i = 0; i < FST_STATE_SIZE; ++i)
             for (int k = 0; k < FST_STATE_SIZE; ++k)
                 column[i] += jacobian[i][k] * l->basis[0][k][j];
-        project(l->basis[0], column, part);
+        fst_tangent_part(l->basis[0], column, part);
         for (int i = 0; i < FST_TANGENT_SIZE; ++i)
             s->map[i][j] = l->a[i][j] = part[i];
     }
-    project(l->basis[0], by, part);
+    fst_tangent_part(l->basis[0], by, part);
     for (int i = 0; i < FST_TANGENT_SIZE; ++i)
         l->a[i][l->size - 1] = part[i];
     put_residual(l, s, 0, f);
@@ -168,7 +152,7 @@ static void equilibrium_equations(const fst_setup *setup, fst_solution *s, fst_n
 static void put_column(fst_newton_system *l, int row, int column, const double *v)
 {
     double part[FST_TANGENT_SIZE];
-    project(l->basis[row / FST_TANGENT_SIZE], v, part);
+    fst_tangent_part(l->basis[row / FST_TANGENT_SIZE], v, part);
     for (int i = 0; i < FST_TANGENT_SIZE; ++i)
         l->a[row + i][column] += part[i];
 }
@@ -188,7 +172,7 @@ static fst_status segment_equations(const fst_family *family, const fst_setup *s
     const fst_status status = fst_carry(setup, family->tolerance, s->period / s->segments, y, tangent, error);
     if (status != FST_OK)
         return status;
-    fst_setup_rhs(setup, y, f);
+    fst_rhs(&setup->model, y, f);
     const int mirror = last && s->symmetric;
     double segment[FST_TANGENT_SIZE][FST_TANGENT_SIZE], product[FST_TANGENT_SIZE][FST_TANGENT_SIZE];
     for (int c = 0; c < FST_COLUMNS + 1; ++c) { /* the basis, the parameter, the time */
@@ -203,7 +187,7 @@ static fst_status segment_equations(const fst_family *family, const fst_setup *s
         if (c >= FST_TANGENT_SIZE)
             continue;
         double part[FST_TANGENT_SIZE];
-        project(l->basis[next], v, part);
+        fst_tangent_part(l->basis[next], v, part);
         for (int k = 0; k < FST_TANGENT_SIZE; ++k)
             segment[k][c] = part[k];
     }
@@ -246,9 +230,9 @@ static fst_status orbit_equations(const fst_family *family, const fst_setup *set
     /* The first state moves across the flow, or stays on the section X = 0. */
     double across[FST_STATE_SIZE] = {1.0};
     if (!s->on_section)
-        fst_setup_rhs(setup, s->y[0], across);
-    const double length = sqrt(dot(across, across, FST_STATE_SIZE));
-    project(l->basis[0], across, l->a[l->rows - 1]);
+        fst_rhs(&setup->model, s->y[0], across);
+    const double length = sqrt(fst_dot(across, across, FST_STATE_SIZE));
+    fst_tangent_part(l->basis[0], across, l->a[l->rows - 1]);
     for (int j = 0; j < FST_TANGENT_SIZE; ++j)
         l->a[l->rows - 1][j] /= length;
     l->b[l->rows - 1] = s->on_section ? -s->y[0][FST_X] : 0.0;
@@ -285,7 +269,7 @@ void fst_newton_row(const fst_family *family, const fst_solution *s, fst_newton_
     const int states = fst_states_of(s);
     for (int i = 0; i < states; ++i) {
         double part[FST_TANGENT_SIZE];
-        project(l->basis[i], across->y[i], part);
+        fst_tangent_part(l->basis[i], across->y[i], part);
         for (int j = 0; j < FST_TANGENT_SIZE; ++j)
             row[FST_TANGENT_SIZE * i + j] = part[j] / states;
     }
@@ -299,7 +283,7 @@ void fst_newton_direction(const fst_solution *s, fst_newton_system *l, const dou
     memset(out, 0, sizeof *out);
     for (int i = 0; i < fst_states_of(s); ++i)
         for (int k = 0; k < FST_STATE_SIZE; ++k)
-            out->y[i][k] = dot(l->basis[i][k], x + FST_TANGENT_SIZE * i, FST_TANGENT_SIZE);
+            out->y[i][k] = fst_dot(l->basis[i][k], x + FST_TANGENT_SIZE * i, FST_TANGENT_SIZE);
     out->period = s->segments > 0 ? x[l->size - 2] : 0.0;
     out->value = x[l->size - 1];
 }
@@ -336,7 +320,6 @@ static fst_status find_tangent(const fst_family *family, fst_solution *s, fst_ne
     return FST_OK;
 }
 
-/* One iteration of an orbit whose guess is far from exact, integrated no more exactly than that deserves. */
 fst_status fst_solution_approach(const fst_family *family, fst_solution *s, const fst_direction *across,
                                  fst_error *error)
 {

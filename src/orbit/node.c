@@ -43,7 +43,7 @@ fst_status fst_node_make(const fst_family *family, const fst_solution *s, fst_no
     memcpy(p->state, s->y[0], sizeof p->state);
     if (s->segments == 0) {
         see_equilibrium(&setup, s, p);
-        node->floats = setup.model.coefficients.kinds.dry && fst_observe(&setup.model, s->y[0]).load <= 0.0;
+        node->floats = setup.model.world.kinds.dry && fst_observe(&setup.model, s->y[0]).load <= 0.0;
         return FST_OK;
     }
     fst_description d;

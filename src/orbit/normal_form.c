@@ -2,17 +2,13 @@
  *
  * Near a Hopf point (or, for the return map, a Neimark-Sacker point) the motion on the surface of the critical
  * pair is, in suitable coordinates, z' = (mu + i w) z + c z |z|^2.  The sign of Re c says what is born there:
- */
-/* clang-format off */
-/*
+ *
  *       Re c < 0: supercritical      Re c > 0: subcritical
  *              .----                  - - -.                 curved: |z| of the small orbit
  *             /                             \                straight: the equilibrium
  *       -----+- - - -                  -----+- - - -         full lines attract, broken ones do not
  *          mu = 0                         mu = 0
- */
-/* clang-format on */
-/*
+ *
  * c follows from the second and third derivatives B and C of the equations at the equilibrium, and the
  * eigenvectors q and p of the pair (Kuznetsov, Eqs. (5.39) and (5.65)):
  *
@@ -29,6 +25,7 @@
 
 #include <string.h>
 
+#include "base/dot.h"
 #include "base/error.h"
 
 enum { MOST = FST_NORMAL_FORM_MOST };
@@ -46,14 +43,6 @@ typedef struct forms {
     fst_error *error;
 } forms;
 
-static double length_of(const double *v, int n)
-{
-    double sum = 0.0;
-    for (int i = 0; i < n; ++i)
-        sum += v[i] * v[i];
-    return sqrt(sum);
-}
-
 /* Values at k h v, k = -3 ... 3 (the middle one is left out: it cancels or is zero). */
 static void along_line(forms *f, const double *v, double h, double value[7][MOST])
 {
@@ -70,7 +59,7 @@ static void along_line(forms *f, const double *v, double h, double value[7][MOST
 static void line_derivatives(forms *f, const double *v, double second[MOST], double third[MOST])
 {
     const int n = f->map->size;
-    const double length = length_of(v, n), h = length > 0 ? f->reach / length : 0.0;
+    const double length = sqrt(fst_dot(v, v, n)), h = length > 0 ? f->reach / length : 0.0;
     double y[7][MOST] = {{0}};
     memset(second, 0, MOST * sizeof *second);
     memset(third, 0, MOST * sizeof *third);
@@ -91,7 +80,7 @@ static void bilinear(forms *f, const double *u, const double *v, double out[MOST
 {
     double sum[MOST], difference[MOST], plus[MOST], minus[MOST], ignored[MOST];
     const int n = f->map->size;
-    const double lu = length_of(u, n), lv = length_of(v, n);
+    const double lu = sqrt(fst_dot(u, u, n)), lv = sqrt(fst_dot(v, v, n));
     memset(out, 0, MOST * sizeof *out);
     if (!(lu > 0 && lv > 0))
         return;
@@ -162,7 +151,8 @@ static int find_pair(forms *f, double frequency)
     double value[2], other[2], p_re[MOST], p_im[MOST], along_re = 0.0, along_im = 0.0;
     if (!eigenvector(f, 0, frequency, f->a, f->b, value) || !eigenvector(f, 1, frequency, p_re, p_im, other))
         return 0;
-    const double size = hypot(length_of(f->a, n), length_of(f->b, n)), modulus = hypot(value[0], value[1]);
+    const double size = hypot(sqrt(fst_dot(f->a, f->a, n)), sqrt(fst_dot(f->b, f->b, n))),
+                 modulus = hypot(value[0], value[1]);
     for (int i = 0; i < n; ++i)
         f->a[i] /= size, f->b[i] /= size;
     f->re = f->map->is_map ? value[0] / modulus : 0.0;

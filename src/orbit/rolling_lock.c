@@ -26,6 +26,8 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "base/grow.h"
+#include "base/listed.h"
 
 static const double LARGEST_PLACE = 8.0, LARGEST_SPIN = 1000.0;
 static const double STEP = 0.01, NEAR = 0.03; /* along a curve; to one that was followed already */
@@ -37,16 +39,16 @@ typedef struct place {
 } place;
 
 typedef struct tracer {
-    const fst_coefficients_double *c; /* of a contact that sticks */
-    double holding;                   /* mu_s; infinite under the law rolling */
-    place *seen;                      /* points of the curves that were followed */
+    const fst_world_double *c;
+    fst_modes_double sticks; /* the modes of a contact that does */
+    double holding;          /* mu_s; infinite under the law rolling */
+    place *seen;             /* points of the curves that were followed */
     size_t count;
 } tracer;
 
 const char *fst_rolling_end_name(fst_rolling_end end)
 {
-    static const char *const names[] = {"cone", "lifted", "spin", "radius", "closed", "lost"};
-    return (unsigned)end < sizeof names / sizeof *names ? names[end] : "unknown";
+    FST_NAME_IN(FST_ROLLING_ENDS, end, "unknown");
 }
 
 /* ------------------------------------------------------------------ one state */
@@ -69,7 +71,7 @@ static double g_at(const tracer *t, place p)
     double y[FST_STATE_SIZE], rate[FST_STATE_SIZE];
     fst_pull_double pull;
     state_at(t, p, y);
-    fst_rhs_double(t->c, t->c->omega, y, rate, &pull);
+    fst_rhs_double(t->c, &t->sticks, t->c->omega, y, rate, &pull);
     return rate[FST_WY];
 }
 
@@ -78,8 +80,8 @@ static double use_at(const tracer *t, const double *y, double *load)
 {
     fst_pull_double pull;
     double force[2];
-    fst_magnetic_pull_double(t->c, y, &pull);
-    const fst_contact_double at = fst_contact_of_double(t->c, y, &pull);
+    fst_magnetic_pull_double(t->c, &t->sticks, y, &pull);
+    const fst_contact_double at = fst_contact_of_double(t->c, &t->sticks, y, &pull);
     fst_friction_double(&t->c->law, &t->c->kinds, &at, force);
     *load = at.load;
     return sqrt(force[0] * force[0] + force[1] * force[1]) / (t->holding * at.load);
@@ -109,7 +111,7 @@ static int is_at_rest(const tracer *t, place p)
     double y[FST_STATE_SIZE], rate[FST_STATE_SIZE];
     fst_pull_double pull;
     state_at(t, p, y);
-    fst_rhs_double(t->c, t->c->omega, y, rate, &pull);
+    fst_rhs_double(t->c, &t->sticks, t->c->omega, y, rate, &pull);
     return fabs(rate[FST_WX]) < SYMMETRIC && fabs(rate[FST_WZ]) < SYMMETRIC;
 }
 
@@ -122,7 +124,7 @@ static void gradient(const tracer *t, place p, double by[2])
     by[1] = (g_at(t, (place){p.x, p.a + d}) - g_at(t, (place){p.x, p.a - d})) / (2.0 * d);
 }
 
-/* To the nearest place of the curve; 0 where there is none. */
+/* To the nearest place of the curve; 0 where the curve has no place. */
 static int correct(const tracer *t, place *p)
 {
     for (int i = 0; i < 12; ++i) {
@@ -235,10 +237,8 @@ static fst_status trace_from(tracer *t, place start, fst_locked_list *list, fst_
     note(t, start);
     const place from = follow(t, start, -1.0, &which[0]);
     const place to = which[0] == FST_ROLLING_CLOSED ? from : follow(t, start, 1.0, &which[1]);
-    fst_rolling_family *more = realloc(list->families, (list->family_count + 1) * sizeof *list->families);
-    if (!more)
+    if (!fst_grow(&list->families, list->family_count, sizeof *list->families))
         return fst_fail(error, FST_NO_MEMORY, "locked", "out of memory");
-    list->families = more;
     fst_rolling_family *made = &list->families[list->family_count++];
     const int turned = from.x > to.x;
     fill(t, turned ? to : from, which[turned], &made->from);
@@ -283,14 +283,13 @@ static fst_status search(tracer *t, fst_locked_list *list, fst_error *error)
 
 fst_status fst_rolling_locks_find(const fst_setup *setup, fst_locked_list *list, fst_error *error)
 {
-    fst_coefficients_double c = setup->model.coefficients;
-    if (!c.kinds.dry || c.resistance.arm > 0.0 || c.kinds.patch)
+    const fst_world_double *c = &setup->model.world;
+    if (!c->kinds.dry || c->resistance.arm > 0.0 || c->kinds.patch)
         return FST_OK;
-    tracer t = {.c = &c, .holding = INFINITY};
-    if (c.kinds.paced) {
-        t.holding = c.law.coulomb.holding;
-        c.law.coulomb.mode = FST_MODE_STICK;
-    }
+    tracer t = {.c = c,
+                .sticks = fst_new_modes_double(),
+                .holding = c->kinds.rolls ? INFINITY : c->law.coulomb.holding};
+    t.sticks.contact = FST_MODE_STICK;
     t.seen = malloc(MOST_POINTS * sizeof *t.seen);
     if (!t.seen)
         return fst_fail(error, FST_NO_MEMORY, "locked", "out of memory");

@@ -4,7 +4,7 @@
 
 #include "orbit/family.h"
 
-/* Append to the list every family under a law whose contact can stick; under others there is none. */
+/* Append to the list every family under a law whose contact can stick; under others none exist. */
 fst_status fst_rolling_locks_find(const fst_setup *setup, fst_locked_list *list, fst_error *error);
 
 #endif

@@ -1,13 +1,10 @@
-/* search.c - the orbit to which a start leads: integrate until returns come close, then Newton's method. */
-/* clang-format off */
-/*
+/* search.c - the orbit to which a start leads: integrate until returns come close, then Newton's method.
+ *
  *     start --> integrate --> do two returns differ by little? --yes--> Newton --> is it the orbit that
  *                  ^                      | no                                     the bead approaches?
  *                  |                      |                                         | no         | yes
  *                  '----------------------+-----------------------------------------'           found
- */
-/* clang-format on */
-/*
+ *
  * Two kinds of returns are watched.  A bead that turns regularly passes X = 0 on alternating sides; its states
  * there are compared after half a turn (with the image under S2, if the field has that symmetry) and after a
  * whole one.  A bead that librates has no such regular passages; its latest state where r is greatest is
@@ -28,15 +25,15 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "observe/marks.h"
 #include "ode/flow.h"
 #include "ode/neighbours.h"
-#include "orbit/departure.h"
 #include "orbit/describe.h"
 #include "study/conclude.h"
 
 #define SEARCH_TOLERANCE 1e-8 /* of the way to the orbit, which Newton's method then finds exactly */
 
-/* The speed that is taken for rest: what the errors of the steps leave of it. */
+/* A slower bead is taken for one at rest: the errors of the steps leave it no slower. */
 #define REST (10.0 * SEARCH_TOLERANCE)
 
 enum { PEAKS = 48, RECENT = 20 }; /* RECENT: drive periods */
@@ -68,14 +65,6 @@ typedef struct search {
     fst_orbit_outcome outcome;
 } search;
 
-static double distance(const double *a, const double *b)
-{
-    double greatest = 0.0;
-    for (int i = 0; i < FST_STATE_SIZE; ++i)
-        greatest = fabs(a[i] - b[i]) > greatest ? fabs(a[i] - b[i]) : greatest;
-    return greatest;
-}
-
 /* The equilibrium that Newton's method finds from a state; 1 if it attracts. */
 static int attracts(const search *s, const double *near, fst_solution *rest)
 {
@@ -94,8 +83,8 @@ static int comes_to_rest(const search *s, const double *near)
     fst_solution rest;
     if (kept < 2 || !attracts(s, near, &rest))
         return 0;
-    const double first = distance(s->peak[(s->peaks - kept) % PEAKS], rest.y[0]);
-    const double last = distance(s->peak[(s->peaks - 1) % PEAKS], rest.y[0]);
+    const double first = fst_state_distance(s->peak[(s->peaks - kept) % PEAKS], rest.y[0]);
+    const double last = fst_state_distance(s->peak[(s->peaks - 1) % PEAKS], rest.y[0]);
     return last < first && last < 0.1;
 }
 
@@ -147,7 +136,7 @@ static int polish(search *s, fst_solution *guess, double gap, fst_error *error)
     }
     if (!fst_solution_is_stable(guess))
         return 0;
-    return distance(start, guess->y[0]) <= 6.0 * gap / (1.0 - greatest_multiplier(guess)) + 1e-7 &&
+    return fst_state_distance(start, guess->y[0]) <= 6.0 * gap / (1.0 - greatest_multiplier(guess)) + 1e-7 &&
            fabs(guess->period / period - 1.0) < 0.1;
 }
 
@@ -157,7 +146,7 @@ static void prefer_symmetric(search *s, fst_solution *orbit)
     fst_solution half = *orbit;
     fst_error ignored;
     fst_apply_s2(orbit->y[1], half.y[1]);
-    const double gap = distance(half.y[1], orbit->y[0]);
+    const double gap = fst_state_distance(half.y[1], orbit->y[0]);
     half.symmetric = 1;
     half.period = 0.5 * orbit->period;
     if (gap < 0.01 && polish(s, &half, gap, &ignored))
@@ -203,7 +192,7 @@ static int try_librating(search *s, fst_solution *out, fst_error *error)
     const int last = (s->peaks - 1) % PEAKS;
     for (int back = 1; back < PEAKS && back < s->peaks; ++back) {
         const int earlier = (s->peaks - 1 - back) % PEAKS;
-        const double gap = distance(s->peak[last], s->peak[earlier]);
+        const double gap = fst_state_distance(s->peak[last], s->peak[earlier]);
         if (!(gap < 0.02))
             continue;
         memset(out, 0, sizeof *out);
@@ -220,7 +209,7 @@ static int try_departure(search *s, fst_solution *out, fst_error *error)
     const double close = 1e-3;
     const double *latest = s->peak[(s->peaks - 1) % PEAKS];
     double gap;
-    if (!s->leaves || s->tried_departure || !(distance(latest, s->rest) < close))
+    if (!s->leaves || s->tried_departure || !(fst_state_distance(latest, s->rest) < close))
         return 0;
     s->tried_departure = 1;
     return fst_departure_guess(s->family, latest, 4.0 * close, out, &gap) && polish(s, out, gap, error);
@@ -248,8 +237,9 @@ static int note_passage(search *s)
     memmove(s->section_time + 1, s->section_time, 2 * sizeof s->section_time[0]);
     memcpy(s->section[0], y, sizeof y);
     s->section_time[0] = fst_flow_time(s->flow, x).high;
-    s->half_distance = s->passages > 1 && s->model->has_s2 ? distance(s->section[0], s->section[1]) : INFINITY;
-    s->full_distance = s->passages > 2 ? distance(s->section[0], s->section[2]) : INFINITY;
+    s->half_distance =
+        s->passages > 1 && s->model->has_s2 ? fst_state_distance(s->section[0], s->section[1]) : INFINITY;
+    s->full_distance = s->passages > 2 ? fst_state_distance(s->section[0], s->section[2]) : INFINITY;
     return s->passages > 3;
 }
 
@@ -270,20 +260,13 @@ static int note_peak(search *s)
     return s->peaks > 2;
 }
 
-/* The speed in the turning frame. */
-static double speed_of(const search *s)
-{
-    return fst_flow_speed(s->flow);
-}
-
 /* At rest, and not just passing an equilibrium from which it will depart slowly. */
 static int is_locked(const search *s)
 {
     fst_solution rest;
-    if (s->flow->step.context.coefficients.kinds.dry &&
-        fst_sticks_double(&s->flow->step.context.coefficients) > 0.5)
-        return speed_of(s) < REST; /* a contact at rest keeps what it has */
-    return speed_of(s) < REST && attracts(s, s->flow->step.end, &rest);
+    if (fst_sticks_double(fst_flow_world(s->flow), fst_flow_modes(s->flow)) > 0.5)
+        return fst_flow_speed(s->flow) < REST; /* a contact at rest keeps what it has */
+    return fst_flow_speed(s->flow) < REST && attracts(s, s->flow->step.end, &rest);
 }
 
 /* What to try where there is no orbit to be found. */
@@ -335,7 +318,8 @@ static fst_status never_settled(search *s, double t_end, fst_error *error)
                        s->full_distance, s->half_distance);
     else
         (void)snprintf(motion, sizeof motion,
-                       "at the end it did not turn regularly (speed in the turning frame: %.3g)", speed_of(s));
+                       "at the end it did not turn regularly (speed in the turning frame: %.3g)",
+                       fst_flow_speed(s->flow));
     return fst_fail(
         error, FST_NO_CONVERGENCE, "orbit",
         "the bead settled on no stable orbit within %.6g drive periods at omega = %.10g: %s, and Newton's "
@@ -348,18 +332,12 @@ static fst_status never_settled(search *s, double t_end, fst_error *error)
  * rolling beads come in continua. */
 static int only_rolls(search *s)
 {
-    const fst_coefficients_double *c = &s->flow->step.context.coefficients;
+    const fst_world_double *c = fst_flow_world(s->flow);
     if (!c->kinds.dry || c->resistance.arm > 0.0)
         return 0;
-    if (!(fst_sticks_double(c) > 0.5))
+    if (!(fst_sticks_double(c, fst_flow_modes(s->flow)) > 0.5))
         s->slipped = s->flow->t.high;
     return s->flow->t.high - s->slipped > RECENT * s->drive_period;
-}
-
-static void note_unfollowed(search *s)
-{
-    if (!fst_neighbours_known(s->flow))
-        s->unfollowed = s->flow->t.high;
 }
 
 static fst_status rolls_for_ever(search *s, fst_error *error)
@@ -386,7 +364,8 @@ static fst_status follow(search *s, double t_end, fst_solution *out, fst_error *
         if (r > fmin(50.0, s->model->groups.map_radius))
             return went_elsewhere(s, FST_ORBIT_EJECTED, error);
         fst_error ignored;
-        note_unfollowed(s);
+        if (!fst_neighbours_known(s->flow))
+            s->unfollowed = s->flow->t.high;
         if (only_rolls(s))
             continue;
         if (note_passage(s)) {
@@ -440,7 +419,7 @@ fst_status fst_search_orbit(const fst_family *family, fst_solution *out, fst_orb
     if (status == FST_OK)
         status = fst_solution_flow(family, 0.0, start, SEARCH_TOLERANCE, &s->model, &s->flow, error);
     if (status == FST_OK) {
-        s->drive_period = FST_TWO_PI / model->groups.omega;
+        s->drive_period = fst_drive_period_double(model->groups.omega);
         status = follow(s, family->params.run_periods * s->drive_period, out, error);
     }
     *outcome = s->outcome;

@@ -55,7 +55,14 @@ double fst_direction_product(const fst_family *family, const fst_solution *of, c
 /* From one solution to another (tangent components alone matter). */
 void fst_direction_between(const fst_solution *from, const fst_solution *to, fst_direction *out);
 
-void fst_direction_scale(fst_direction *direction, double factor);
+/* out = a u + b v */
+void fst_direction_combine(fst_direction *out, double a, const fst_direction *u, double b,
+                           const fst_direction *v);
+
+static inline void fst_direction_scale(fst_direction *direction, double factor)
+{
+    fst_direction_combine(direction, factor, direction, 0.0, direction);
+}
 
 /* s moved by `length` along a direction, n kept on the unit sphere. */
 void fst_solution_move(fst_solution *s, const fst_direction *direction, double length);

@@ -13,7 +13,7 @@
  * (full lines attract, broken ones do not).  Orbits have the same with multipliers instead of eigenvalues: +1
  * is a fold, -1 a pitchfork of a symmetric orbit (its half map) or a period doubling of another, a pair on the
  * unit circle a Neimark-Sacker point.  Where an orbit passes through the axis r = 0 nothing happens to it but
- * that it ceases to turn round the axis; that is told too (origin-crossing).  Under dry friction an orbit may
+ * that it ceases to turn round the axis; that is reported too (origin-crossing).  Under dry friction an orbit may
  * gain or lose a rest; the return to itself is not smooth there (grazing).
  *
  * Each of these is the zero of one test (special_test.c): where a test has different signs at the two points,
@@ -32,12 +32,13 @@
 #include <string.h>
 
 #include "base/constants.h"
+#include "base/dot.h"
 #include "base/error.h"
+#include "observe/marks.h"
 #include "orbit/normal_form.h"
 #include "orbit/special_test.h"
-#include "orbit/switching.h"
 
-/* Between which two nodes one looks, and who is told. */
+/* Between which two nodes one looks, and who hears of it. */
 typedef struct interval {
     const fst_family *family;
     const fst_curve_sink *sink;
@@ -48,6 +49,8 @@ typedef struct interval {
 static fst_status tell(const interval *i, fst_special_type type, const fst_node *at, int criticality,
                        const fst_node *born, fst_error *error)
 {
+    if (!i->sink->special)
+        return FST_OK;
     return i->sink->special(i->sink->user, type, at, criticality, born, error);
 }
 
@@ -60,14 +63,6 @@ static void half_way(const fst_solution *s, double y[FST_STATE_SIZE])
         fst_apply_s2(s->y[0], y);
     else
         memcpy(y, s->y[s->segments / 2], FST_STATE_SIZE * sizeof *y);
-}
-
-static double greatest_difference(const double *a, const double *b)
-{
-    double greatest = 0.0;
-    for (int k = 0; k < FST_STATE_SIZE; ++k)
-        greatest = fmax(greatest, fabs(a[k] - b[k]));
-    return greatest;
 }
 
 /* How a solution differs from its image under S2. */
@@ -83,14 +78,12 @@ static void asymmetry(const fst_solution *s, double difference[FST_STATE_SIZE])
 /* Whether a curve passes through a solution that is its own image: then it goes on as its own image. */
 static int becomes_its_image(const fst_node *a, const fst_node *b)
 {
-    double at_a[FST_STATE_SIZE], at_b[FST_STATE_SIZE], product_ab = 0.0, size = 0.0;
+    double at_a[FST_STATE_SIZE], at_b[FST_STATE_SIZE], size = 0.0;
     asymmetry(&a->s, at_a);
     asymmetry(&b->s, at_b);
-    for (int k = 0; k < FST_STATE_SIZE; ++k) {
-        product_ab += at_a[k] * at_b[k];
+    for (int k = 0; k < FST_STATE_SIZE; ++k)
         size += at_a[k] * at_a[k] + at_b[k] * at_b[k];
-    }
-    return size > 1e-12 && product_ab < -0.01 * size; /* rounding has signs too */
+    return size > 1e-12 && fst_dot(at_a, at_b, FST_STATE_SIZE) < -0.01 * size; /* rounding has signs too */
 }
 
 /* Whether a curve of orbits without the symmetry passes through one that has it. */
@@ -105,7 +98,7 @@ static int is_own_image(const fst_solution *s)
 {
     double image[FST_STATE_SIZE];
     fst_apply_s2(s->y[0], image);
-    return s->segments == 0 && greatest_difference(image, s->y[0]) < 1e-6;
+    return s->segments == 0 && fst_state_distance(image, s->y[0]) < 1e-6;
 }
 
 /* How large an orbit is: the way between its states half a period apart. */
@@ -113,7 +106,7 @@ static double extent(const fst_solution *s)
 {
     double half[FST_STATE_SIZE];
     half_way(s, half);
-    return greatest_difference(half, s->y[0]);
+    return fst_state_distance(half, s->y[0]);
 }
 
 /* 1 where the new branch lies on the side on which the old one has more unstable directions, -1 on the other.
@@ -213,39 +206,33 @@ fst_status fst_look_for_hopf_end(const fst_family *family, const fst_curve_sink 
 
 /* Whether a curve of equilibria that turns here does so because it meets another: at a fold the equations'
  * derivative by the parameter lies outside the range of the Jacobian, at a pitchfork inside.  The left null
- * vector w tells, found by inverse iteration: w.f_p = 0. */
+ * vector w says, found by inverse iteration: w.f_p = 0. */
 static int is_branch_point(const fst_family *family, const fst_solution *s)
 {
     enum { N = FST_TANGENT_SIZE };
     fst_setup setup;
-    double by[FST_STATE_SIZE], basis[FST_STATE_SIZE][N], w[N], along = 0.0, size = 0.0, greatest = 0.0;
+    double by[FST_STATE_SIZE], basis[FST_STATE_SIZE][N], w[N], part[N], greatest = 0.0;
     if (fst_family_setup(family, s->value, &setup, NULL) != FST_OK)
         return 0;
     for (int i = 0; i < N; ++i)
         w[i] = 1.0 / (1.0 + i);
     for (int round = 0; round < 3; ++round) {
-        double a[N * N], length = 0.0;
+        double a[N * N];
         for (int i = 0; i < N; ++i)
             for (int j = 0; j < N; ++j)
                 a[i * N + j] = s->map[j][i] + (i == j ? 1e-10 : 0.0);
         if (family->lapack->solve(N, 1, a, w) != 0)
             return 0;
+        const double length = sqrt(fst_dot(w, w, N));
         for (int i = 0; i < N; ++i)
-            length += w[i] * w[i];
-        for (int i = 0; i < N; ++i)
-            w[i] /= sqrt(length);
+            w[i] /= length;
     }
     fst_setup_by_parameter(&setup, s->y[0], by);
     fst_tangent_basis(s->y[0], basis);
-    for (int j = 0; j < N; ++j) {
-        double part = 0.0;
-        for (int i = 0; i < FST_STATE_SIZE; ++i)
-            part += basis[i][j] * by[i];
-        along += w[j] * part;
-        size += part * part;
-        greatest = fmax(greatest, fabs(w[j] * part));
-    }
-    return fabs(along) < 1e-3 * fmax(greatest, 0.01 * sqrt(size));
+    fst_tangent_part(basis, by, part);
+    for (int j = 0; j < N; ++j)
+        greatest = fmax(greatest, fabs(w[j] * part[j]));
+    return fabs(fst_dot(w, part, N)) < 1e-3 * fmax(greatest, 0.01 * sqrt(fst_dot(part, part, N)));
 }
 
 /* A curve of orbits went through the equilibrium on which they shrink, from a to b, and comes back on itself:
@@ -307,7 +294,7 @@ static fst_status report_other(const interval *i, int test, const fst_node *at, 
         type = at->s.symmetric ? FST_SPECIAL_PITCHFORK : FST_SPECIAL_PERIOD_DOUBLING;
         switched = fst_switch_at_minus_one(i->family, at, &born, &ignored);
     } else if (test == FST_TEST_PAIR) {
-        const double frequency = orbit ? fst_pair_angle(&at->s) : fst_pair_frequency(&i->b->s);
+        const double frequency = fst_pair_frequency(orbit ? &at->s : &i->b->s);
         type = orbit ? FST_SPECIAL_NEIMARK_SACKER : FST_SPECIAL_HOPF;
         criticality = fst_pair_criticality(i->family, &at->s, frequency);
         if (!orbit)

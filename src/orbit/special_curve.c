@@ -2,18 +2,14 @@
  *
  * On the surface of solutions over two parameters a fold, a multiplier -1, a pair on the border or a passage of
  * the origin is the zero of one function, the test.  One step along its zero line:
- */
-/* clang-format off */
-/*
+ *
  *                                 1. Lagrange's formula through the last places (*) predicts one (o)
  *                         + next
  *       *-----*-----*     |       2. Newton's method brings it back to the surface
  *                     '.  | across
  *                       ' o       3. secants across the way find the zero of the test (+), each try brought
  *                                    back to the surface too
- */
-/* clang-format on */
-/*
+ *
  * The tangent plane at the latest place is turned so that one direction points along the predicted way and the
  * other across it; corrections by Newton's method stay perpendicular to both.  So the curve is parametrised by
  * its own length, and goes through its turns in either parameter, and round cusps.
@@ -61,7 +57,7 @@ static int is_pair(const walk *w)
 }
 
 /* The pair whose frequency (angle of a multiplier) is the nearest to the last one: how far it is from the
- * border.  -1 in *angle: there is none. */
+ * border.  -1 in *angle: no such place. */
 static double pair_test(const fst_solution *s, double *angle)
 {
     int best = -1;

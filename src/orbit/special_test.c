@@ -1,9 +1,7 @@
 /* special_test.c - tests for special points, and where they vanish.
  *
  * A test is a number of a solution that changes its sign at special points of one kind:
- */
-/* clang-format off */
-/*
+ *
  *     FOLD      the tangent's part along the parameter       the curve turns back
  *     MINUS     product of (1 + multiplier)                  pitchfork of an S2 orbit, period doubling
  *     PLUS      product of (multiplier - 1), of an           two curves meet; also zero at a fold
@@ -11,9 +9,7 @@
  *     PAIR      |multiplier|^2 - 1, of an equilibrium the    Neimark-Sacker, Hopf
  *               real part, of the pair nearest to zero
  *     ORIGIN    distance from the axis, with its side        the orbit passes through r = 0
- */
-/* clang-format on */
-/*
+ *
  * Products are used, and not single multipliers, because they stay smooth where multipliers meet and exchange
  * their order; complex pairs contribute positive factors, so a product changes its sign with a real multiplier
  * only.  The pair nearest to the border may be another one at the next point; so PAIR asks whether the numbers
@@ -50,28 +46,17 @@ static double pair_value(const fst_solution *s)
     return nearest;
 }
 
-/* The frequency of the critical pair of an equilibrium. */
 double fst_pair_frequency(const fst_solution *s)
 {
-    int best = -1;
-    for (int i = 0; i < s->multipliers; ++i)
-        if (is_pair(s, i) && s->im[i] > 0 && (best < 0 || fabs(s->re[i]) < fabs(s->re[best])))
-            best = i;
-    return best < 0 ? NAN : s->im[best];
-}
-
-/* The angle of the pair of multipliers nearest to the unit circle. */
-double fst_pair_angle(const fst_solution *s)
-{
-    double angle = NAN, least = INFINITY;
+    double frequency = NAN, least = INFINITY;
     for (int i = 0; i < s->multipliers; ++i) {
-        const double off = fabs(hypot(s->re[i], s->im[i]) - 1.0);
+        const double off = s->segments > 0 ? fabs(hypot(s->re[i], s->im[i]) - 1.0) : fabs(s->re[i]);
         if (s->im[i] > 0 && is_pair(s, i) && off < least) {
             least = off;
-            angle = atan2(s->im[i], s->re[i]);
+            frequency = s->segments > 0 ? atan2(s->im[i], s->re[i]) : s->im[i];
         }
     }
-    return angle;
+    return frequency;
 }
 
 /* The product of (sign + multiplier), or of the eigenvalues: it changes sign with a real one only. */
@@ -103,7 +88,6 @@ double fst_test_value(const fst_node *node, int test)
     }
 }
 
-/* How many multipliers lie outside, pairs alone. */
 int fst_count_unstable_pairs(const fst_solution *s)
 {
     int count = 0;

@@ -16,10 +16,9 @@ double fst_test_value(const fst_node *node, int test);
 /* Whether something happens between two neighbours that this test sees. */
 int fst_test_changes(const fst_node *a, const fst_node *b, int test);
 
-/* The frequency of an equilibrium's critical pair, and the angle of the pair of multipliers nearest to the unit
+/* The frequency of an equilibrium's critical pair, or the angle of the pair of multipliers nearest to the unit
  * circle; NAN: there is no pair. */
 double fst_pair_frequency(const fst_solution *s);
-double fst_pair_angle(const fst_solution *s);
 
 /* How many multipliers (eigenvalues) are unstable, and how many complex pairs of them. */
 int fst_count_unstable(const fst_solution *s);

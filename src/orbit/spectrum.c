@@ -4,16 +4,12 @@
  * x 9 matrix in the tangent basis of the first state.  An orbit's M maps the flow direction f onto itself: one
  * eigenvalue is 1 and says nothing.  Left in, it would disturb any multiplier near 1, just where a fold is
  * looked for.  So f is split off by an orthogonal matrix Q whose first column is f/|f|:
- */
-/* clang-format off */
-/*
+ *
  *                   | 1  *  *  * |        first column: exactly this if the orbit were exact; its
  *       Q^T M Q  =  | 0            |        error is reported (trivial_error)
  *                   | 0   reduced  |
  *                   | 0            |        8 x 8: the return to the section across the flow
- */
-/* clang-format on */
-/*
+ *
  * The eigenvalues of the reduced matrix are the multipliers.  For an S2 orbit M belongs to half a turn and the
  * image under S2, so a whole turn has their squares: a multiplier -1 here is where the symmetric orbit splits.
  *
@@ -28,6 +24,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/dot.h"
 #include "base/error.h"
 #include "ode/flow.h"
 
@@ -36,16 +33,12 @@ enum { SPECTRUM_WORK = 100 }; /* of LAPACK on a matrix of this size, in evaluati
 /* An orthogonal matrix (by a Householder reflection) whose first column is f/|f|. */
 static void reflection(const double *f, double q[FST_TANGENT_SIZE][FST_TANGENT_SIZE])
 {
-    double u[FST_TANGENT_SIZE], norm2 = 0.0;
-    for (int i = 0; i < FST_TANGENT_SIZE; ++i)
-        norm2 += f[i] * f[i];
-    const double length = sqrt(norm2), sign = f[0] > 0 ? 1.0 : -1.0;
+    double u[FST_TANGENT_SIZE];
+    const double length = sqrt(fst_dot(f, f, FST_TANGENT_SIZE)), sign = f[0] > 0 ? 1.0 : -1.0;
     for (int i = 0; i < FST_TANGENT_SIZE; ++i)
         u[i] = f[i] / length;
     u[0] += sign;
-    double u2 = 0.0;
-    for (int i = 0; i < FST_TANGENT_SIZE; ++i)
-        u2 += u[i] * u[i];
+    const double u2 = fst_dot(u, u, FST_TANGENT_SIZE);
     for (int i = 0; i < FST_TANGENT_SIZE; ++i)
         for (int j = 0; j < FST_TANGENT_SIZE; ++j)
             q[i][j] = -sign * ((i == j ? 1.0 : 0.0) - 2.0 * u[i] * u[j] / u2);
@@ -83,15 +76,13 @@ static fst_status reduced_matrix(const fst_family *family, fst_solution *s, doub
         return FST_OK;
     }
     fst_setup setup;
-    double f[FST_STATE_SIZE], basis[FST_STATE_SIZE][FST_TANGENT_SIZE], local[FST_TANGENT_SIZE] = {0};
+    double f[FST_STATE_SIZE], basis[FST_STATE_SIZE][FST_TANGENT_SIZE], local[FST_TANGENT_SIZE];
     const fst_status status = fst_family_setup(family, s->value, &setup, error);
     if (status != FST_OK)
         return status;
-    fst_setup_rhs(&setup, s->y[0], f);
+    fst_rhs(&setup.model, s->y[0], f);
     fst_tangent_basis(s->y[0], basis);
-    for (int j = 0; j < FST_TANGENT_SIZE; ++j)
-        for (int i = 0; i < FST_STATE_SIZE; ++i)
-            local[j] += basis[i][j] * f[i];
+    fst_tangent_part(basis, f, local);
     double turned[FST_TANGENT_SIZE][FST_TANGENT_SIZE];
     reflection(local, q);
     rotate(q, s->map, turned);
@@ -182,11 +173,8 @@ fst_status fst_solution_eigenvector(const fst_family *family, const fst_solution
                 const double component = vectors[j * n + best + (copy.im[best] != 0 ? part : 0)];
                 local[i] += dropped ? q[i][j + 1] * component : (i == j ? component : 0.0);
             }
-        for (int k = 0; k < FST_STATE_SIZE; ++k) {
-            out[k] = 0.0;
-            for (int j = 0; j < FST_TANGENT_SIZE; ++j)
-                out[k] += basis[k][j] * local[j];
-        }
+        for (int k = 0; k < FST_STATE_SIZE; ++k)
+            out[k] = fst_dot(basis[k], local, FST_TANGENT_SIZE);
     }
     return FST_OK;
 }
@@ -206,7 +194,7 @@ int fst_solution_moves(const fst_family *family, const fst_solution *s)
     double f[FST_STATE_SIZE], greatest = 0.0;
     if (s->segments == 0 || fst_family_setup(family, s->value, &setup, &ignored) != FST_OK)
         return 0;
-    fst_setup_rhs(&setup, s->y[0], f);
+    fst_rhs(&setup.model, s->y[0], f);
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         greatest = fmax(greatest, fabs(f[i]));
     return greatest * s->period > 1e-6 && s->trivial_error < 1e-6;
@@ -231,7 +219,7 @@ fst_status fst_solution_flow(const fst_family *family, double value, const doubl
     *flow = NULL;
     fst_status status = fst_model_new(&params, model, error);
     if (status != FST_OK)
-        return status;
+        return fst_watch_end(family->watch, status, error);
     fst_flow_options o = fst_default_flow_options();
     o.rtol = tolerance;
     for (int i = 0; i < FST_STATE_SIZE; ++i)
@@ -241,7 +229,7 @@ fst_status fst_solution_flow(const fst_family *family, double value, const doubl
         fst_model_free(*model);
         *model = NULL;
     }
-    return status;
+    return fst_watch_end(family->watch, status, error);
 }
 
 fst_status fst_solution_advance(const fst_family *family, fst_flow *flow, double time, fst_error *error)

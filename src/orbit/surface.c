@@ -3,16 +3,12 @@
  * Over one parameter solutions form a curve; with a second one, free too, they form a surface.  There are two
  * unknowns more than equations, so two rows close the linear system: the correction shall be perpendicular to
  * two given headings.
- */
-/* clang-format off */
-/*
+ *
  *       | rows of newton.c       f_second |  dx          gaps
  *       |                                 |  d first  =
  *       | <------- across[0] -----------> |  d second     0
  *       | <------- across[1] -----------> |               0
- */
-/* clang-format on */
-/*
+ *
  * Solved for the right-hand sides (0, 1, 0) and (0, 0, 1), the same matrix gives two vectors that span the
  * tangent plane.  Its shadow, the area of their parallelogram on the plane of the two parameters, vanishes
  * where the surface stands upright over that plane: at a fold.
@@ -45,11 +41,7 @@ void fst_heading_between(const fst_place *from, const fst_place *to, fst_heading
 
 void fst_heading_combine(fst_heading *out, double a, const fst_heading *u, double b, const fst_heading *v)
 {
-    for (int i = 0; i < FST_SEGMENTS; ++i)
-        for (int k = 0; k < FST_STATE_SIZE; ++k)
-            out->d.y[i][k] = a * u->d.y[i][k] + b * v->d.y[i][k];
-    out->d.period = a * u->d.period + b * v->d.period;
-    out->d.value = a * u->d.value + b * v->d.value;
+    fst_direction_combine(&out->d, a, &u->d, b, &v->d);
     out->second = a * u->second + b * v->second;
 }
 

@@ -1,10 +1,11 @@
 /* switching.c - the first point of the branch that is born at a special point. */
-#include "orbit/switching.h"
+#include "orbit/special.h"
 
 #include <string.h>
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "observe/marks.h"
 
 #define AWAY 2e-2 /* how far along the critical direction the new branch is first sought */
 
@@ -57,13 +58,9 @@ static void prefer_symmetric(const fst_family *family, fst_node *born)
     fst_solution s = born->s;
     fst_node half;
     fst_error ignored;
-    double image[FST_STATE_SIZE], far = 0.0, size = 0.0;
+    double image[FST_STATE_SIZE];
     fst_apply_s2(s.y[2], image);
-    for (int k = 0; k < FST_STATE_SIZE; ++k) {
-        far = fmax(far, fabs(image[k] - s.y[0][k]));
-        size = fmax(size, fabs(s.y[2][k] - s.y[0][k]));
-    }
-    if (!(far < 1e-6 * size))
+    if (!(fst_state_distance(image, s.y[0]) < 1e-6 * fst_state_distance(s.y[2], s.y[0])))
         return;
     s.symmetric = 1;
     s.segments = 2;

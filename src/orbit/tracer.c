@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "orbit/branch_list.h"
 
-/* ------------------------------------------------------------------ what a curve tells */
+/* ------------------------------------------------------------------ what a curve shows */
 
 /* Tell the caller how far the work is; the answer.  Nobody knows how long a branch is: forty points are taken
  * for half of one. */

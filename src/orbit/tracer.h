@@ -36,4 +36,11 @@ fst_status fst_tracer_add(fst_tracer *t, const fst_node *start, fst_error *error
 /* Follow every pending branch, and those that are born on the way. */
 fst_status fst_tracer_run(fst_tracer *t, fst_error *error);
 
+/* Find counter-rotating orbits in the range, and follow the branches on which they lie (counter.c). */
+fst_status fst_follow_counter(fst_tracer *t, fst_error *error);
+
+/* Find equilibria at several values in the range, and follow each unless a branch passes through it already
+ * (locked.c). */
+fst_status fst_follow_locked(fst_tracer *t, fst_error *error);
+
 #endif

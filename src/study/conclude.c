@@ -7,6 +7,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "base/listed.h"
 #include "study/regime.h"
 #include "study/settle.h"
 
@@ -28,14 +29,14 @@ const fst_result_info *fst_result_at(int index)
 
 const char *fst_regime_name(fst_regime regime)
 {
-    static const char *const names[] = {"undecided",  "locked",  "librating", "counter-rotating",
-                                        "corotating", "chaotic", "ejected",   "lifted"};
-    return (unsigned)regime < sizeof names / sizeof *names ? names[regime] : "undecided";
+    FST_NAME_IN(FST_REGIMES, regime, "undecided");
 }
 
 const char *fst_symmetry_name(fst_symmetry symmetry)
 {
-    return symmetry == FST_SYMMETRY_S1 ? "S1" : symmetry == FST_SYMMETRY_S2 ? "S2" : NULL;
+    if (symmetry == FST_SYMMETRY_NONE)
+        return NULL;
+    FST_NAME_IN(FST_SYMMETRIES, symmetry, NULL);
 }
 
 void fst_result_clear(fst_run_result *result)
@@ -58,15 +59,16 @@ static void fill_end(const fst_watched_run *run, int steady, fst_run_result *res
     else
         fst_flow_at(flow, x, result->final_state);
     double whole, rest;
-    fst_flow_drive_turns(flow, t, &whole, &rest);
+    fst_drive_turns(&flow->drive, t, &whole, &rest);
     result->end_time = t.high;
     result->settled_at = run->end.happened ? NAN : run->settling.settled_at;
     const int all_done = steady && t.high == run->window.span.until && isnan(run->settling.settled_at);
     result->periods = all_done ? run->params->run_periods : whole + rest;
-    result->omega = fst_flow_omega(flow, t);
-    const int as_given = steady && isnan(run->params->drive_omega);
+    result->omega = fst_drive_rate_double(&flow->drive, t);
+    const fst_model *model = run->model;
+    const int as_given = steady && isnan(model->params.drive_omega);
     result->frequency_hz =
-        as_given ? run->params->drive_frequency : result->omega / (FST_TWO_PI * run->model->groups.time_unit);
+        as_given ? model->params.drive_frequency : result->omega / (FST_TWO_PI * model->groups.time_unit);
     result->norm_drift = flow->norm_drift;
     result->accepted = flow->accepted;
     result->rejected = flow->rejected;
@@ -85,7 +87,7 @@ fst_regime fst_regime_of_end(const fst_groups *groups, fst_regime end, const cha
     return FST_REGIME_UNDECIDED;
 }
 
-/* The bead left the plate: that is what is told of the run. */
+/* The bead left the plate: nothing else is said of the run. */
 static void tell_of_end(const fst_watched_run *run, fst_run_result *result)
 {
     const char *how;
@@ -97,14 +99,20 @@ static void tell_of_end(const fst_watched_run *run, fst_run_result *result)
                    result->periods, r);
 }
 
-/* Patterns and period of a turning bead. */
-static void fill_turning(fst_run_result *result)
+/* Patterns and period of a turning bead.  Where the symmetry is not known, there may be twice as many festoons; a
+ * magnet that is not its own image under half a turn leaves no doubt. */
+static void fill_turning(const fst_watched_run *run, fst_run_result *result)
 {
     if (result->regime != FST_REGIME_COUNTER_ROTATING && result->regime != FST_REGIME_COROTATING)
         return;
-    const double a = result->symmetry == FST_SYMMETRY_S2 ? 2.0 : 1.0;
-    result->festoons = a * (1.0 + result->omega / fabs(result->mean_alpha_dot));
-    result->period = FST_TWO_PI / fabs(result->omega - result->mean_alpha_dot);
+    const double single = 1.0 + result->omega / fabs(result->mean_alpha_dot);
+    const size_t told = strlen(result->reason);
+    result->period = fst_drive_period_double(fabs(result->omega - result->mean_alpha_dot));
+    if (result->symmetry != FST_SYMMETRY_NONE || !run->model->has_s2)
+        result->festoons = result->symmetry == FST_SYMMETRY_S2 ? 2.0 * single : single;
+    else
+        (void)snprintf(result->reason + told, sizeof result->reason - told, "; festoons: %.4g, or %.4g if S2",
+                       single, 2.0 * single);
 }
 
 void fst_conclude_ramp(const fst_watched_run *run, const fst_ramp *ramp, fst_run_result *result)
@@ -142,7 +150,7 @@ fst_status fst_conclude(const fst_watched_run *run, const fst_exponent *exponent
                         "the step size underflowed while the Lyapunov exponent was computed; try a larger "
                         "run.rtol");
     *needs_exponent = !fst_decide_regime(run, exponent, result);
-    fill_turning(result);
+    fill_turning(run, result);
     if (result->regime == FST_REGIME_LOCKED && !fst_n_is_free(run))
         result->tilt_deg = NAN; /* n stands still in the end; a plane would be that of the way there */
     return FST_OK;
@@ -152,7 +160,7 @@ void fst_ask_exponent(const fst_watched_run *run, fst_exponent *asked)
 {
     const fst_mark *first = &run->window.periods.kept[0];
     memset(asked, 0, sizeof *asked);
-    asked->coefficients = &run->flow->step.context.coefficients;
+    asked->world = fst_flow_world(run->flow);
     memcpy(asked->state, first->state, sizeof asked->state);
     asked->duration = fst_twofold_difference(run->flow->t, first->t);
     asked->rtol = run->params->run_rtol;

@@ -14,7 +14,7 @@ fst_regime fst_regime_of_end(const fst_groups *groups, fst_regime end, const cha
 void fst_result_clear(fst_run_result *result);
 
 /* Fill in a cleared result from what the run has reached: means, extremes, and by docs/regimes.md's criteria
- * regime and symmetry.  Some motions need their largest Lyapunov exponent to be told: *needs_exponent then, and
+ * regime and symmetry.  Some motions need their largest Lyapunov exponent to be recognised: *needs_exponent then, and
  * the result means nothing until the run is concluded once more with that `exponent` (NULL: it is not known).
  */
 fst_status fst_conclude(const fst_watched_run *run, const fst_exponent *exponent, fst_run_result *result,

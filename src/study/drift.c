@@ -3,20 +3,16 @@
  * The line's change over the window is a drift if it stands out of the scatter about the line, and is large
  * enough to matter.  A motion that goes back and forth scatters about a level line; one that relaxes, or creeps
  * away, does not:
- */
-/* clang-format off */
-/*
+ *
  *     <r> |                       x  x
  *         |              x  x  x
  *         |        x  x
  *         |  x  x
  *         +--------------------------- t
- */
-/* clang-format on */
-/*
+ *
  * Where the blocks follow a slow swing of few cycles, a drift can hide in it: a swing of k cycles tilts the
- * line by up to 6 sqrt(2)/(pi k) standard deviations.  The changes of sign of what is left of the line count
- * the cycles.
+ * line by up to 6 sqrt(2)/(pi k) standard deviations.  The changes of sign of the
+ * deviations from the line count the cycles.
  *
  * At most FST_MARKS blocks are kept of a run, however long it is: nothing has to be done for this while it
  * runs.
@@ -44,7 +40,6 @@ enum { LEAST_BLOCKS = 4 };        /* for a line and its scatter */
 /* Means between one kept mark and the next, and their straight line of least squares. */
 typedef struct blocks {
     int count;
-    double turns; /* of the magnet, all together */
     double r[FST_MARKS], alpha_dot[FST_MARKS], nz[FST_MARKS],
         swing[FST_MARKS]; /* swing: delta r within a block */
 } blocks;
@@ -59,7 +54,8 @@ static int takes_section(const fst_watched_run *run)
     return fst_window_series(&run->window, run->flow->t) == &run->window.returns.marks;
 }
 
-static void fill_blocks(const fst_watched_run *run, blocks *b)
+/* The blocks of a run, and the window's length; 0: they are too few for a line. */
+static int fill_blocks(const fst_watched_run *run, blocks *b, double *turns)
 {
     /* Librations are judged by whole drive periods: there are marks of them whatever the motion does. */
     const fst_mark_series *series = takes_section(run) ? &run->window.returns.marks : &run->window.periods;
@@ -74,9 +70,9 @@ static void fill_blocks(const fst_watched_run *run, blocks *b)
         b->nz[i] = means.mean_nz;
         b->swing[i] = means.std_r;
     }
-    b->turns = b->count > 0
-                   ? fst_twofold_difference(series->kept[b->count].t, series->kept[0].t) / run->window.period
-                   : 0;
+    *turns =
+        b->count > 0 ? fst_time_between(&series->kept[0], &series->kept[b->count]) / run->window.period : 0;
+    return b->count >= LEAST_BLOCKS;
 }
 
 static line line_through(const double *values, int count)
@@ -119,26 +115,21 @@ static void compare(fst_drift *worst, double *greatest, const char *what, const 
     if (!(size > STANDS_OUT * l->noise) || !(size > *greatest * least))
         return;
     *greatest = size / least;
-    worst->what = what;
-    worst->change = l->change;
-    worst->noise = l->noise;
-    worst->mean = l->mean;
+    *worst = (fst_drift){what, l->change, l->noise, l->mean, worst->turns};
 }
 
 fst_drift fst_drift_of(const fst_watched_run *run)
 {
     fst_drift worst = {.what = NULL};
     blocks b;
-    fill_blocks(run, &b);
-    worst.turns = b.turns;
-    if (b.count < LEAST_BLOCKS)
+    if (!fill_blocks(run, &b, &worst.turns))
         return worst;
     double greatest = 1.0;
     const line r = line_through(b.r, b.count), swing = line_through(b.swing, b.count);
     const double least = MATTERS * r.mean;
     if (takes_section(run)) {
         const line alpha_dot = line_through(b.alpha_dot, b.count), nz = line_through(b.nz, b.count);
-        const double omega = fst_flow_omega(run->flow, run->flow->t);
+        const double omega = fst_drive_rate_double(&run->flow->drive, run->flow->t);
         compare(&worst, &greatest, "<r>", &r, least);
         compare(&worst, &greatest, "<alpha'>", &alpha_dot, MATTERS * omega);
         compare(&worst, &greatest, "<n_z>", &nz, MATTERS);
@@ -147,7 +138,7 @@ fst_drift fst_drift_of(const fst_watched_run *run)
     }
     /* Whole drive periods are no whole swings: what a block cuts off goes round slowly, and looks like a drift.
      */
-    const double cut_off = ALIASED * swing.mean / (b.turns / b.count);
+    const double cut_off = ALIASED * swing.mean / (worst.turns / b.count);
     compare(&worst, &greatest, "<r>", &r, fmax(least, cut_off));
     compare(&worst, &greatest, "delta r", &swing, fmax(least, cut_off));
     /* What dies out or grows does so exponentially: its logarithm follows the line. */
@@ -161,9 +152,7 @@ fst_drift fst_hidden_drift_of(const fst_watched_run *run)
 {
     fst_drift found = {.what = NULL};
     blocks b;
-    fill_blocks(run, &b);
-    found.turns = b.turns;
-    if (b.count < LEAST_BLOCKS)
+    if (!fill_blocks(run, &b, &found.turns))
         return found;
     /* What the line shows may be the swing's or a drift's, and a drift as large again may hide under the swing.
      */
@@ -174,11 +163,7 @@ fst_drift fst_hidden_drift_of(const fst_watched_run *run)
     const double possible = in_alpha_dot ? of_alpha_dot : of_r;
     if (!(possible > HIDES * fabs(worst->mean)))
         return found;
-    found.what = in_alpha_dot ? "<alpha'>" : "<r>";
-    found.change = worst->change;
-    found.noise = possible;
-    found.mean = worst->mean;
-    return found;
+    return (fst_drift){in_alpha_dot ? "<alpha'>" : "<r>", worst->change, possible, worst->mean, found.turns};
 }
 
 /* The second half alone: where a bead comes to rest the steps lengthen first, and what their errors leave of

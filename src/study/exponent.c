@@ -5,7 +5,7 @@
  *
  *     |v|        .|        .|        .|      the time is cut into pieces; at the end of each the vector
  *              .  |      .  |      .  |      is made short again, and the logarithms of what it had grown
- *           .     |   .     |   .     |      to are averaged as growth.h tells
+ *           .     |   .     |   .     |      to are averaged as growth.h says
  *         +-------+---------+---------+-- t
  *           piece     piece     piece
  *
@@ -25,6 +25,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/dot.h"
 #include "base/elementary.h"
 #include "base/error.h"
 #include "base/watch.h"
@@ -74,30 +75,22 @@ typedef struct batch {
     int count;
 } batch;
 
-static double dot(const double *a, const double *b, int n)
-{
-    double sum = 0.0;
-    for (int i = 0; i < n; ++i)
-        sum += a[i] * b[i];
-    return sum;
-}
-
 /* Take the parts along |n| and along the flow out of the tangent vector.
  * Returns its length, and scales it to 1. */
 static double project(double *y, const double *flow_direction)
 {
     double *tangent = y + FST_STATE_SIZE;
     const double *n = y + FST_NX;
-    const double along_n = dot(tangent + FST_NX, n, 3) / dot(n, n, 3);
+    const double along_n = fst_dot(tangent + FST_NX, n, 3) / fst_dot(n, n, 3);
     for (int i = 0; i < 3; ++i)
         tangent[FST_NX + i] -= along_n * n[i];
-    const double speed2 = dot(flow_direction, flow_direction, FST_STATE_SIZE);
+    const double speed2 = fst_dot(flow_direction, flow_direction, FST_STATE_SIZE);
     if (speed2 > 0) {
-        const double along = dot(tangent, flow_direction, FST_STATE_SIZE) / speed2;
+        const double along = fst_dot(tangent, flow_direction, FST_STATE_SIZE) / speed2;
         for (int i = 0; i < FST_STATE_SIZE; ++i)
             tangent[i] -= along * flow_direction[i];
     }
-    const double length = sqrt(dot(tangent, tangent, FST_STATE_SIZE));
+    const double length = sqrt(fst_dot(tangent, tangent, FST_STATE_SIZE));
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         tangent[i] /= length;
     return length;
@@ -158,7 +151,7 @@ static follower follower_of(fst_exponent *asked, double rtol)
 static void begin(batch *b, int l, fst_exponent *asked)
 {
     double y[FST_TANGENT_DIM], atol[FST_TANGENT_DIM];
-    const double loosest = fst_kinds_brake(&asked->coefficients->kinds) ? LOOSEST : LOOSEST_WITHOUT_FRICTION;
+    const double loosest = fst_kinds_brake(&asked->world->kinds) ? LOOSEST : LOOSEST_WITHOUT_FRICTION;
     const double rtol = asked->rtol > loosest ? asked->rtol : loosest;
     for (int i = 0; i < FST_STATE_SIZE; ++i) {
         y[i] = asked->state[i];
@@ -166,7 +159,7 @@ static void begin(batch *b, int l, fst_exponent *asked)
         atol[i] = rtol;
         atol[FST_STATE_SIZE + i] = 1e-6;
     }
-    b->engine->load(b->memory, l, asked->coefficients, y, rtol, atol);
+    b->engine->load(b->memory, l, asked->world, y, rtol, atol);
     if (l >= b->count || asked->has_way)
         return;
     b->followers[l] = follower_of(asked, rtol);
@@ -278,8 +271,7 @@ static fst_status follow_dry(fst_exponent *asked, fst_flow *flow, double rtol, c
             asked->failed = 1;
             return FST_OK;
         }
-        const double load = fst_load_function(flow, flow->step.end, FST_PATH_PULL(&flow->step, FST_PATH_END));
-        if (!fst_neighbours_known(flow) || (asked->coefficients->kinds.flies && load < 0)) {
+        if (!fst_neighbours_known(flow)) {
             asked->unknown = 1;
             return FST_OK;
         }
@@ -298,9 +290,8 @@ static fst_status dry_exponent(fst_exponent *asked, const fst_progress *progress
     fst_flow *flow;
     fst_flow_options o = fst_default_flow_options();
     memset(&model, 0, sizeof model);
-    model.coefficients = *asked->coefficients;
-    model.coefficients.kinds.flies = 0; /* follow_dry() looks for it */
-    model.groups.omega = asked->coefficients->omega;
+    model.world = *asked->world;
+    model.groups.omega = asked->world->omega;
     o.rtol = rtol;
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         o.atol[i] = rtol;
@@ -314,7 +305,7 @@ static fst_status dry_exponent(fst_exponent *asked, const fst_progress *progress
 fst_status fst_largest_exponents(const fst_tangent_engine *engine, fst_exponent *const *asked, int count,
                                  const fst_progress *progress, fst_error *error)
 {
-    if (asked[0]->coefficients->kinds.dry) {
+    if (asked[0]->world->kinds.dry) {
         fst_status status = FST_OK;
         for (int i = 0; i < count && status == FST_OK; ++i)
             status = dry_exponent(asked[i], progress, error);

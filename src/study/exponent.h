@@ -10,7 +10,7 @@ enum { FST_EXPONENT_WAY = 1024 };
 
 /* A question, and its answer. */
 typedef struct fst_exponent {
-    const fst_coefficients_double *coefficients;
+    const fst_world_double *world;
     double state[FST_STATE_SIZE]; /* where to begin */
     double duration, rtol;
     double value,

@@ -269,7 +269,7 @@ fst_status fst_grid_new(const fst_params *base, const char *const *axes, int cou
         return fst_fail(error, FST_NO_MEMORY, AXES, "out of memory");
     made->base = *base;
     made->seed = seed;
-    fst_status status = FST_OK;
+    fst_status status = fst_params_settle(&made->base, error);
     for (int i = 0; i < count && status == FST_OK; ++i)
         status = read_axis(made, axes[i], error);
     if (status == FST_OK)

@@ -46,7 +46,7 @@ fst_lane_contacts fst_worker_look_at_contacts(fst_row_worker *w, fst_lane_batch 
             flow->rhs_calls += DOP_TRY_EVALUATIONS + 1; /* the clock will count the other try */
         } else {
             contacts.passed |= fst_lane_bit(l);
-            if (flow->contact.next_mode >= 0 || fst_contact_mode(flow) == FST_MODE_ONSET)
+            if (flow->contact.slip.next >= 0 || fst_contact_mode(flow) == FST_MODE_ONSET)
                 contacts.turned |= fst_lane_bit(l);
         }
     }

@@ -1,6 +1,6 @@
 /* lane_places.c - rows in lanes: how a run begins, and where it is between its beginning and its end.
  *
- * lane_rows.c tells the way of a row from batch to queue to batch; here are the steps of that way which end at
+ * lane_rows.c shows the way of a row from batch to queue to batch; here are the steps of that way which end at
  * a place: a job becomes a run, a run takes a lane or waits for one.
  */
 #include "study/lane_worker.h"
@@ -11,7 +11,7 @@
 
 #include "base/error.h"
 #include "study/conclude.h"
-#include "study/lone_run.h"
+#include "study/lane_rows.h"
 
 void fst_worker_free_run(fst_lane *at)
 {
@@ -35,7 +35,6 @@ void fst_worker_move_run(fst_lane *to, fst_lane *from)
     to->run->params = &to->job.params;
 }
 
-/* The run of a lane is no longer there. */
 void fst_worker_vacate(fst_row_worker *w, fst_lane_batch *b, int l)
 {
     w->engine->release(b->memory, l);
@@ -52,13 +51,11 @@ void fst_worker_vacate(fst_row_worker *w, fst_lane_batch *b, int l)
     }
 }
 
-/* Runs that are on their way to their ends. */
 int fst_worker_on_their_way(const fst_row_worker *w)
 {
     return w->run_up.occupied + w->observed.occupied + w->ready_count + w->unwatched_count;
 }
 
-/* These, and those at their ends whose exponents are wanted. */
 int fst_worker_at_work(const fst_row_worker *w)
 {
     return fst_worker_on_their_way(w) + w->parked_count;
@@ -67,7 +64,7 @@ int fst_worker_at_work(const fst_row_worker *w)
 /* Whether a model can share the batches with those at work. */
 static int fits(const fst_row_worker *w, const fst_model *model)
 {
-    return fst_worker_at_work(w) == 0 || fst_kinds_equal(&w->kind.kinds, &model->coefficients.kinds);
+    return fst_worker_at_work(w) == 0 || fst_kinds_equal(&w->kind.kinds, &model->world.kinds);
 }
 
 /* Whether lanes know the contact of a model. */
@@ -76,7 +73,6 @@ static int lanes_know(const fst_kinds *kinds)
     return !kinds->dry || (kinds->patch == FST_PATCH_POINT && !kinds->flies && !kinds->resists);
 }
 
-/* Change the engine, while nothing is at work. */
 void fst_worker_use_engine(fst_row_worker *w, const fst_lane_engine *engine)
 {
     fst_lane_batch *batches[] = {&w->observed, &w->run_up};
@@ -90,8 +86,6 @@ void fst_worker_use_engine(fst_row_worker *w, const fst_lane_engine *engine)
     }
 }
 
-/* Begin the job of `at`.  FST_BEGUN_FAILED: `error` says why; FST_BEGUN_REFUSED: it has to wait until nothing
- * is at work; FST_BEGUN_ALONE: it is one for no lane. */
 fst_beginning fst_worker_begin(fst_row_worker *w, fst_lane *at, fst_status *status, fst_error *error)
 {
     fst_watched_run *run = calloc(1, sizeof *run);
@@ -100,7 +94,7 @@ fst_beginning fst_worker_begin(fst_row_worker *w, fst_lane *at, fst_status *stat
         return FST_BEGUN_FAILED;
     }
     *status = fst_watched_run_begin(run, &at->job.params, at->job.has_start ? at->job.start : NULL, error);
-    const int alone = *status == FST_OK && !lanes_know(&run->model->coefficients.kinds);
+    const int alone = *status == FST_OK && !lanes_know(&run->model->world.kinds);
     const int refused = *status == FST_OK && !alone && !fits(w, run->model);
     if (*status != FST_OK || refused || alone) {
         fst_watched_run_free(run);
@@ -108,20 +102,13 @@ fst_beginning fst_worker_begin(fst_row_worker *w, fst_lane *at, fst_status *stat
         return alone ? FST_BEGUN_ALONE : refused ? FST_BEGUN_REFUSED : FST_BEGUN_FAILED;
     }
     if (fst_worker_at_work(w) == 0)
-        fst_worker_use_engine(w, run->model->coefficients.kinds.dry ? w->dry : w->usual);
+        fst_worker_use_engine(w, run->model->world.kinds.dry ? w->dry : w->usual);
     at->run = run;
-    w->kind = run->model->coefficients;
+    w->kind = run->model->world;
     run->window.span.asked_at_end = 1;
     if (!w->usual->fused)
         run->window.returns.left_out.state = FST_LEFT_OUT_NEVER;
     return FST_BEGUN;
-}
-
-/* Hand over the result of a job; 1 if another one follows in its place. */
-int fst_worker_hand_over(fst_row_worker *w, fst_lane *at, fst_status status, const fst_run_result *result,
-                         const fst_error *error)
-{
-    return w->work->done(w->work->user, &at->job, status, result, error);
 }
 
 static int idle_lane(const fst_row_worker *w, const fst_lane_batch *b)
@@ -173,7 +160,6 @@ static void enter_run_up(fst_row_worker *w, int l, fst_lane *from)
         b->view.next_mark[l] = fst_left_out_until(&window->returns.left_out, &window->span);
 }
 
-/* A run that was begun, or taken up, goes to its place. */
 void fst_worker_place(fst_row_worker *w, fst_lane *fresh)
 {
     const fst_span *span = &fresh->run->window.span;
@@ -193,7 +179,7 @@ void fst_worker_place(fst_row_worker *w, fst_lane *fresh)
     to->image = NULL;
 }
 
-/* Begin the next job, or put it aside if it does not fit; 0 if there is none. */
+/* Begin the next job, or put it aside if it does not fit; 0 if no job is left. */
 static int admit(fst_row_worker *w)
 {
     fst_lane fresh = {.run = NULL};
@@ -224,15 +210,13 @@ static int admit(fst_row_worker *w)
             break;
         fst_run_result nothing;
         fst_result_clear(&nothing);
-        has_job = fst_worker_hand_over(w, &fresh, status, &nothing, &error);
+        has_job = w->work->done(w->work->user, &fresh.job, status, &nothing, &error);
     }
     fst_worker_take_up(w, &fresh);
     fst_worker_place(w, &fresh);
     return 1;
 }
 
-/* Idle lanes take runs that are ready, then new jobs.  A job whose model does not fit the batch waits until
- * nothing is at work. */
 void fst_worker_occupy_idle(fst_row_worker *w)
 {
     const int width = w->engine->width;

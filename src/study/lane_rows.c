@@ -3,7 +3,7 @@
  * An engine (lanes.h) makes one step of every lane of a batch at once, and adds up the integrals.  Everything
  * else about a run is the code of fst_run(): each lane has a watched run of its own, whose window observes it.
  * That code would cost more than the step, so a step is taken out of its lane only when it may hold something:
- * the end of the run, a mark, a return to the section, an extreme.  The engine tells which steps may;
+ * the end of the run, a mark, a return to the section, an extreme.  The engine says which steps may;
  * lane_watch.c looks at them.
  *
  * A row's way, in the fast form:
@@ -37,7 +37,7 @@
  *
  * A batch shares the integers of its models: number of lines, material, dynamics.  A job that differs is
  * deferred until nothing is at work; the next batch then takes its kind.  Some motions need their largest
- * exponent to be told (conclude.h).  Their runs are parked until there are as many as lanes, and followed side
+ * exponent to be recognised (conclude.h).  Their runs are parked until there are as many as lanes, and followed side
  * by side too.
  *
  * Runs with dry friction have an engine of their own, which takes the place of the usual one while nothing is
@@ -55,8 +55,15 @@
 #include "base/error.h"
 #include "study/conclude.h"
 #include "study/lane_worker.h"
-#include "study/lone_run.h"
 #include "study/settle.h"
+
+/* Hand over the result of a job; another one may follow. */
+static void hand_over(fst_row_worker *w, fst_row_job *job, fst_status status, const fst_run_result *result,
+                      const fst_error *error)
+{
+    if (w->work->done(w->work->user, job, status, result, error))
+        w->waiting[w->waiting_count++] = *job;
+}
 
 /* A finished run needs its exponent: it waits for others that do. */
 static fst_status park(fst_row_worker *w, fst_lane *at, fst_error *error)
@@ -87,8 +94,7 @@ static void finish(fst_row_worker *w, fst_lane_batch *b, int l, fst_status statu
             return;
     }
     fst_worker_free_run(at);
-    if (fst_worker_hand_over(w, at, status, &result, error))
-        w->waiting[w->waiting_count++] = at->job;
+    hand_over(w, &at->job, status, &result, error);
 }
 
 static fst_status watch_exponents(void *user, double fraction, const char *what, fst_error *error)
@@ -115,8 +121,7 @@ static fst_status conclude_parked(fst_row_worker *w, fst_error *error)
         fst_result_clear(&result);
         const fst_status concluded = fst_conclude(at->run, at->exponent, &result, &needs_exponent, &own);
         fst_worker_free_run(at);
-        if (fst_worker_hand_over(w, at, concluded, &result, &own))
-            w->waiting[w->waiting_count++] = at->job;
+        hand_over(w, &at->job, concluded, &result, &own);
     }
     w->parked_count -= status == FST_OK ? count : 0;
     return status;
@@ -198,8 +203,7 @@ static void begin_anew(fst_row_worker *w, int l)
     }
     fst_run_result nothing;
     fst_result_clear(&nothing);
-    if (fst_worker_hand_over(w, &fresh, status, &nothing, &error))
-        w->waiting[w->waiting_count++] = fresh.job;
+    hand_over(w, &fresh.job, status, &nothing, &error);
 }
 
 /* A run begins another window (settle.h). */
@@ -335,6 +339,24 @@ static void *make_memory(size_t usual, size_t dry)
     return memory;
 }
 
+static void free_worker(fst_row_worker *w)
+{
+    for (int l = 0; l < FST_MOST_LANES; ++l) {
+        fst_worker_free_run(&w->run_up.lanes[l]);
+        fst_worker_free_run(&w->observed.lanes[l]);
+    }
+    for (int i = 0; i < w->ready_count; ++i)
+        fst_worker_free_run(&w->ready[i]);
+    for (int i = 0; i < w->unwatched_count; ++i)
+        fst_worker_free_run(&w->unwatched[i]);
+    for (int i = 0; i < w->parked_count; ++i)
+        fst_worker_free_run(&w->parked[i]);
+    free(w->run_up.memory);
+    free(w->observed.memory);
+    free(w->pending_steps);
+    free(w);
+}
+
 static fst_row_worker *make_worker(const fst_row_work *work, const fst_row_images *images,
                                    const fst_lane_engine *engine)
 {
@@ -353,29 +375,8 @@ static fst_row_worker *make_worker(const fst_row_work *work, const fst_row_image
         fst_worker_use_engine(w, w->usual);
         return w;
     }
-    free(w->run_up.memory);
-    free(w->observed.memory);
-    free(w->pending_steps);
-    free(w);
+    free_worker(w);
     return NULL;
-}
-
-static void free_worker(fst_row_worker *w)
-{
-    for (int l = 0; l < w->engine->width; ++l) {
-        fst_worker_free_run(&w->run_up.lanes[l]);
-        fst_worker_free_run(&w->observed.lanes[l]);
-    }
-    for (int i = 0; i < w->ready_count; ++i)
-        fst_worker_free_run(&w->ready[i]);
-    for (int i = 0; i < w->unwatched_count; ++i)
-        fst_worker_free_run(&w->unwatched[i]);
-    for (int i = 0; i < w->parked_count; ++i)
-        fst_worker_free_run(&w->parked[i]);
-    free(w->run_up.memory);
-    free(w->observed.memory);
-    free(w->pending_steps);
-    free(w);
 }
 
 fst_status fst_lane_rows(const fst_row_work *work, const fst_row_images *images, const fst_lane_engine *engine,

@@ -23,7 +23,6 @@
 
 #include "base/constants.h"
 
-/* Locate the extremes of the steps that were set aside. */
 void fst_worker_locate(fst_row_worker *w)
 {
     double values[FST_MOST_LANES];
@@ -51,7 +50,6 @@ static int repeats(const fst_watched_run *run)
     return returns->marks.offered >= 3 && returns->marks.latest.full_distance < returns->left_out.limit;
 }
 
-/* The fast form: set the steps aside in which a record may be beaten. */
 void fst_worker_set_aside(fst_row_worker *w, const unsigned *beaten)
 {
     for (int i = 0; i < FST_RECORD_COUNT; ++i)
@@ -73,8 +71,6 @@ static void read_end(const fst_row_worker *w, int l, double end[FST_STATE_SIZE])
         end[i] = w->observed.view.end[i * w->engine->width + l];
 }
 
-/* Tell a lane between which directions Phi has stayed, two numbers each; zeros where the range is wider than
- * the lane can judge. */
 void fst_worker_keep_angle_range(fst_row_worker *w, int l)
 {
     const int width = w->engine->width;
@@ -102,7 +98,6 @@ static void watch_bead_angle(fst_row_worker *w, int l)
     fst_worker_keep_angle_range(w, l);
 }
 
-/* A lane's step as the run's own flow has it, the clock, and Phi at its end. */
 void fst_worker_extract_step(const fst_row_worker *w, const fst_lane_batch *b, int l)
 {
     fst_flow *flow = b->lanes[l].run->flow;
@@ -114,7 +109,6 @@ void fst_worker_extract_step(const fst_row_worker *w, const fst_lane_batch *b, i
     fst_flow_follow(flow, flow->step.end);
 }
 
-/* Whether a step that may end a run does. */
 int fst_worker_ends_run(const fst_row_worker *w, const fst_lane_batch *b, int l)
 {
     w->engine->extract_path(b->memory, l, &b->lanes[l].run->flow->step);
@@ -241,7 +235,6 @@ static void pass_mark(fst_row_worker *w, int l)
     v->next_mark[l] = fst_window_next_mark(&run->window);
 }
 
-/* Look at the accepted steps that may hold something; the lanes whose runs are over. */
 unsigned fst_worker_look(fst_row_worker *w, fst_lane_events events)
 {
     const unsigned wandering = events.wandering & w->in_window & ~w->turning;

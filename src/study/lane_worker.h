@@ -63,7 +63,7 @@ typedef struct fst_row_worker {
     /* Jobs to come: at most one for each run that was begun; and those whose models do not fit the batches. */
     fst_row_job waiting[8 * FST_MOST_LANES], deferred[FST_MOST_DEFERRED];
     int waiting_count, deferred_count;
-    fst_coefficients_double kind; /* of the runs at work, which share its integers */
+    fst_world_double kind; /* of the runs at work, which share its integers */
     int no_more;
     fst_status answer; /* of the caller during a run that was done alone, whether to go on, */
     fst_error said;    /* and what it said */
@@ -89,10 +89,6 @@ fst_beginning fst_worker_begin(fst_row_worker *w, fst_lane *at, fst_status *stat
 
 /* A run that was begun, or taken up, goes to its place. */
 void fst_worker_place(fst_row_worker *w, fst_lane *fresh);
-
-/* Hand over the result of a job; 1 if another one follows in its place. */
-int fst_worker_hand_over(fst_row_worker *w, fst_lane *at, fst_status status, const fst_run_result *result,
-                         const fst_error *error);
 
 void fst_worker_free_run(fst_lane *at);
 void fst_worker_move_run(fst_lane *to, fst_lane *from);

@@ -1,5 +1,5 @@
 /* lone_run.c - a row without neighbours: one run, from its start or its image to its end. */
-#include "study/lone_run.h"
+#include "study/lane_rows.h"
 
 #include <stdlib.h>
 

@@ -1,16 +1,16 @@
 /* ramp.c - means over the pieces of a slow ramp of the drive.
  *
  * On a ramp the drive changes steadily from the end of the discard to the end of the run.  The way is cut into
- * pieces of equal length, each of which tells means:
+ * pieces of equal length, each of which has its means:
  *
  *     omega    |              .  '
- *              |        .  '     :           a steady ramp: means over the whole returns in each piece, or over
- * all |  .  '     :     :           of it where the bead does not turn
+ *              |        .  '     :           a steady ramp: means over the whole returns in each piece, or over all
+ *              |  .  '     :     :           of it where the bead does not turn
  *              +--------------------- t
  *
- *     omega    |            .-----'          a ramp that waits (ramp_wait.c): the drive stands still half way
- * through |    .-----'                  each piece until the motion has settled, and the means are those of the
- *              |  '                          motion there
+ *     omega    |            .-----'          a ramp that waits (ramp_wait.c): the drive stands still half way through
+ *              |      .-----'                each piece until the motion has settled, and the means are those of the
+ *              |  .---'                      motion there
  *              +--------------------- t
  */
 #include "study/ramp.h"
@@ -43,11 +43,6 @@ fst_status fst_ramp_tell(fst_ramp *ramp, const fst_ramp_point *point, fst_error 
     const fst_run_sink *sink = &ramp->options->sink;
     ramp->piece += 1;
     return sink->ramp_point ? sink->ramp_point(sink->user, point, error) : FST_OK;
-}
-
-double fst_ramp_progress(const fst_ramp *ramp)
-{
-    return (double)ramp->piece / ramp->options->ramp_points;
 }
 
 /* ------------------------------------------------------------------ steady */
@@ -86,7 +81,7 @@ static fst_status end_pieces(fst_ramp *ramp, fst_window *window, fst_flow *flow,
         if (x > 1.0 + 1e-12)
             return FST_OK;
         fst_mark end;
-        fst_window_mark(window, flow, x > 1.0 - 1e-12 ? 1.0 : x, &end);
+        fst_mark_take(&end, &window->quadrature, flow, x > 1.0 - 1e-12 ? 1.0 : x, 1);
         const fst_status status = end_piece(ramp, window, &end, error);
         if (status != FST_OK)
             return status;

@@ -14,7 +14,7 @@ typedef struct fst_ramp_wait {
 
 typedef struct fst_ramp {
     const fst_run_options *options;
-    int is_given;                /* else there is none, and the members below mean nothing */
+    int is_given;                /* whether there is a ramp; if not, the members below mean nothing */
     double rate;                 /* of the drive; 0 where both ends are the same */
     double from, until;          /* times */
     int piece;                   /* number of the present one */
@@ -36,9 +36,6 @@ fst_status fst_ramp_step(fst_ramp *ramp, fst_window *window, fst_flow *flow, fst
 
 /* A piece is over: its means go to the caller of fst_run(). */
 fst_status fst_ramp_tell(fst_ramp *ramp, const fst_ramp_point *point, fst_error *error);
-
-/* How much of the ramp is done. */
-double fst_ramp_progress(const fst_ramp *ramp);
 
 /* Why a ramp has no regime, and where it did not settle. */
 void fst_ramp_explain(const fst_ramp *ramp, fst_run_result *result);

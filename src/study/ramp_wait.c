@@ -16,13 +16,12 @@
 
 #include "base/constants.h"
 
-static const double DIED_OUT = 1e-2; /* asymmetry over the disturbance: below, the orbit is symmetric */
-static const double GROWN = 1e2;     /* the same: above, the orbit is not, if it changes no more */
-static const double STEADY = 1e-3;   /* relative change of the asymmetry over the last returns */
-static const double ARRIVED = 2e-5;  /* what is left of the way to the orbit, where the means begin */
-static const double SLOWEST =
-    0.9999;                 /* a return's distance over the one before: nearer to 1 is not told from it */
-enum { FEWEST_TURNS = 16 }; /* in which a turning bead makes its returns; else none are waited for */
+static const double DIED_OUT = 1e-2;  /* asymmetry over the disturbance: below, the orbit is symmetric */
+static const double GROWN = 1e2;      /* the same: above, the orbit is not, if it changes no more */
+static const double STEADY = 1e-3;    /* relative change of the asymmetry over the last returns */
+static const double ARRIVED = 2e-5;   /* distance to the orbit at which the means begin */
+static const double SLOWEST = 0.9999; /* a return's distance over the one before: nearer to 1 counts as 1 */
+enum { FEWEST_TURNS = 16 };           /* in which a turning bead makes its returns; else none are waited for */
 
 /* The way that is left to the orbit where the means begin, which is at the `oldest` mark: the distances of
  * whole returns fall by the same factor from return to return, and this is the sum of all that follow.  The
@@ -61,7 +60,7 @@ static void disturb(fst_simulation *s)
         if (i < FST_NX || i > FST_NZ)
             state[i] += s->options->ramp_disturbance;
     fst_flow_restart(s->run.flow);
-    fst_returns_break(&s->run.window.returns);
+    s->run.window.returns.since_break = 0;
 }
 
 /* The means over the whole returns that were kept, or where they are too few over all of the waiting. */
@@ -80,9 +79,10 @@ static fst_status wait_and_measure(fst_simulation *s, fst_ramp_point *point, fst
     fst_mark from, to;
     fst_flow *flow = s->run.flow;
     fst_ramp_wait *w = &s->ramp.wait;
-    const double period = FST_TWO_PI / fst_flow_omega(flow, flow->t), begun = flow->t.high;
+    const double period = fst_drive_period_double(fst_drive_rate_double(&flow->drive, flow->t)),
+                 begun = flow->t.high;
     const double longest = begun + s->options->ramp_wait * period;
-    fst_window_mark(&s->run.window, flow, 1.0, &from);
+    fst_mark_take(&from, &s->run.window.quadrature, flow, 1.0, 1);
     fst_flow_begin_ramp(flow, 0.0);
     disturb(s);
     s->ramp.is_waiting = 1;
@@ -97,7 +97,7 @@ static fst_status wait_and_measure(fst_simulation *s, fst_ramp_point *point, fst
     s->ramp.is_waiting = 0;
     if (status != FST_OK || s->run.end.happened)
         return status;
-    fst_window_mark(&s->run.window, flow, 1.0, &to);
+    fst_mark_take(&to, &s->run.window.quadrature, flow, 1.0, 1);
     measure(s, &from, &to, point);
     point->settled = settled;
     return FST_OK;

@@ -61,7 +61,7 @@ enum {
 
 int fst_is_braked(const fst_watched_run *run)
 {
-    const fst_coefficients_double *c = &run->flow->step.context.coefficients;
+    const fst_world_double *c = fst_flow_world(run->flow);
     if (!c->kinds.dry)
         return fst_kinds_brake(&c->kinds);
     return c->resistance.arm > 0 || !fst_never_slips(&run->window, &run->window.periods);
@@ -69,7 +69,7 @@ int fst_is_braked(const fst_watched_run *run)
 
 #define REASON(...) (void)snprintf(result->reason, sizeof result->reason, __VA_ARGS__)
 
-/* What the exponent says: neighbours part exponentially, they do not, the window is too short to tell, or
+/* What the exponent says: neighbours part exponentially, they do not, the window is too short to say, or
  * nobody has computed it yet. */
 typedef enum { REGULAR, UNCLEAR, CHAOTIC, NOT_KNOWN } chaos;
 
@@ -263,7 +263,7 @@ static double activity_over(const fst_mark_series *marks, int from, int to)
 }
 
 /* The activity grows from third to third of the window.  Noise has single peaks, forty times as high as the
- * rest: two halves would not tell them from growth. */
+ * rest: two halves would not show whether they grow. */
 static int grows(const fst_mark_series *marks)
 {
     const int third = (marks->count - 1) / 3;
@@ -276,12 +276,12 @@ static int grows(const fst_mark_series *marks)
  * the speed that the torque of a strong magnet makes of the errors of n. */
 static double noise_of(const fst_watched_run *run)
 {
-    const fst_coefficients_double *c = &run->flow->step.context.coefficients;
+    const fst_world_double *c = fst_flow_world(run->flow);
     const double of_steps = NOISE * run->params->run_rtol;
     if (run->window.greatest_bead_angle - run->window.least_bead_angle > fmax(KEPT, run->params->run_rtol))
         return of_steps;
     fst_pull_double p;
-    fst_magnetic_pull_double(c, run->flow->step.end, &p);
+    fst_magnetic_pull_double(c, fst_flow_modes(run->flow), run->flow->step.end, &p);
     const double b = sqrt(p.b[0] * p.b[0] + p.b[1] * p.b[1] + p.b[2] * p.b[2]);
     return fmax(of_steps, STILL * run->params->run_rtol * (c->torque * fabs(p.strength) * b));
 }
@@ -340,7 +340,7 @@ static decision decide_bounded(const fst_watched_run *run, const fst_exponent *e
 
 int fst_n_is_free(const fst_watched_run *run)
 {
-    const fst_coefficients_double *c = &run->flow->step.context.coefficients;
+    const fst_world_double *c = fst_flow_world(run->flow);
     return c->hard == 0.0 && c->twice_b == 0.0;
 }
 

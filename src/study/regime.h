@@ -5,7 +5,7 @@
 #include "study/exponent.h"
 #include "study/watched_run.h"
 
-/* Fill in regime, symmetry and reason.  0: the motion cannot be told without its largest exponent, and
+/* Fill in regime, symmetry and reason.  0: the motion cannot be recognised without its largest exponent, and
  * `exponent` is NULL; the result means nothing then. */
 int fst_decide_regime(const fst_watched_run *run, const fst_exponent *exponent, fst_run_result *result);
 

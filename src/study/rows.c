@@ -1,13 +1,11 @@
 /* rows.c - many runs, one after another or side by side. */
 #include "base/error.h"
+#include "base/listed.h"
 #include "study/lane_rows.h"
-#include "study/lone_run.h"
-#include "study/splitting_rows.h"
 
 const char *fst_arithmetic_name(fst_arithmetic arithmetic)
 {
-    static const char *const names[] = {"portable", "avx2", "avx512"};
-    return (unsigned)arithmetic < sizeof names / sizeof *names ? names[arithmetic] : "unknown";
+    FST_NAME_IN(FST_ARITHMETICS, arithmetic, "unknown");
 }
 
 fst_arithmetic fst_best_arithmetic(void)
@@ -35,14 +33,6 @@ fst_status fst_rows(const fst_row_work *work, fst_error *error)
     return fst_rows_with_images(work, NULL, error);
 }
 
-/* The jobs of run.method events, with lanes where `user` is an engine. */
-static fst_status event_rows(const fst_row_work *work, const fst_row_images *images, void *user,
-                             fst_error *error)
-{
-    const fst_lane_engine *const *engine = user;
-    return *engine ? fst_lane_rows(work, images, *engine, error) : single_rows(work, images, error);
-}
-
 fst_status fst_rows_with_images(const fst_row_work *work, const fst_row_images *images, fst_error *error)
 {
     const fst_lane_engine *engine = fst_lane_engine_of(work->arithmetic, work->lanes);
@@ -50,6 +40,5 @@ fst_status fst_rows_with_images(const fst_row_work *work, const fst_row_images *
         return fst_fail(error, FST_UNAVAILABLE, "",
                         "this processor or build has no %d lanes of the arithmetic %s", work->lanes,
                         fst_arithmetic_name(work->arithmetic));
-    const fst_splitting_engine *splitting = engine ? &engine->splitting : &fst_splitting_scalar;
-    return fst_rows_by_method(work, images, splitting, event_rows, &engine, error);
+    return engine ? fst_lane_rows(work, images, engine, error) : single_rows(work, images, error);
 }

@@ -9,7 +9,6 @@
 #include "model/params.h"
 #include "study/conclude.h"
 #include "study/simulation.h"
-#include "study/splitting_run.h"
 
 fst_run_options fst_default_run_options(void)
 {
@@ -51,7 +50,7 @@ static fst_status check_options(const fst_run_options *o, fst_error *error)
 
 static fst_status simulate(fst_simulation *s, fst_error *error)
 {
-    fst_status status = fst_simulation_begin_samples(s, error);
+    fst_status status = fst_simulation_samples(s, 1.0, error);
     if (status == FST_OK && s->ramp.rate != 0.0) {
         status = fst_simulation_until(s, s->run.window.span.from, error);
         if (status == FST_OK && s->ramp.waits)
@@ -100,11 +99,12 @@ fst_status fst_run(const fst_params *params, const fst_run_options *options, fst
         return fst_fail(
             error, FST_BAD_INPUT, "run.until",
             "a ramp ends where its last frequency is reached: run.until settled is for a steady drive");
-    if (params->run_method == FST_METHOD_SPLITTING)
-        return fst_splitting_alone(params, options, result, error);
-    fst_params at_start = *params; /* a ramp starts at its own frequency */
+    fst_params at_start = *params;
+    status = fst_params_settle(&at_start, error);
+    if (status != FST_OK)
+        return status;
     if (!isnan(options->ramp_from))
-        at_start.drive_omega = options->ramp_from;
+        at_start.drive_omega = options->ramp_from; /* a ramp starts at its own frequency */
     fst_simulation *s = calloc(1, sizeof *s);
     if (!s)
         return fst_fail(error, FST_NO_MEMORY, "fst_run", "out of memory");

@@ -104,7 +104,7 @@ void *fst_run_image_make(const fst_watched_run *run, const fst_exponent *exponen
     made->flow = *run->flow;
     if (exponent) {
         made->exponent = *exponent;
-        made->exponent.coefficients = NULL;
+        made->exponent.world = NULL;
     }
     *lane = (double *)(made + 1);
     return made;
@@ -134,21 +134,16 @@ static int is_sound(const image *i, uint64_t expected, int numbers, size_t size)
            are_sound(&i->window.swings) && fst_settling_is_sound(&i->settling);
 }
 
-/* The coefficients of a run that begins, with the mode of its contact in the image, which is kept in the law's
- * numbers.  0: there is no such mode. */
-static int take_mode(fst_coefficients_double *c, const image *from)
+/* Whether a run under this law may have such modes. */
+static int are_possible(const fst_modes_double *m, const fst_kinds *kinds)
 {
-    const fst_law_numbers_double *then = &from->flow.step.context.coefficients.law;
-    if (!c->kinds.paced)
-        return 1;
-    const double mode = then->coulomb.mode;
-    c->law = *then;
-    c->resistance = from->flow.step.context.coefficients.resistance;
-    const double roll = c->resistance.mode;
-    if (roll != FST_ROLL_ROLLS && roll != FST_ROLL_RESTS && roll != FST_ROLL_STARTS)
-        return 0;
-    return mode == FST_MODE_SLIP || mode == FST_MODE_STICK || mode == FST_MODE_ONSET ||
-           (mode == FST_MODE_FLIGHT && c->kinds.flies);
+    const int flies = m->contact == FST_MODE_FLIGHT, begins = m->contact == FST_MODE_ONSET;
+    const int sticks = m->contact == FST_MODE_STICK, rests = m->rolling == FST_ROLL_RESTS;
+    const int of_contact =
+        m->contact == FST_MODE_SLIP || (kinds->modes && (sticks || begins)) || (kinds->flies && flies);
+    const int of_rolling =
+        m->rolling == FST_ROLL_ROLLS || (kinds->resists && (rests || m->rolling == FST_ROLL_STARTS));
+    return of_contact && of_rolling;
 }
 
 int fst_run_image_take(const void *bytes, size_t size, int numbers, fst_watched_run *run,
@@ -159,8 +154,8 @@ int fst_run_image_take(const void *bytes, size_t size, int numbers, fst_watched_
     const image *from = bytes;
     if (!is_sound(from, layout(from->numbers == 0 ? 0 : numbers), numbers, size))
         return 0;
-    fst_coefficients_double coefficients = run->flow->step.context.coefficients;
-    if (!take_mode(&coefficients, from))
+    const fst_world_double world = *fst_flow_world(run->flow);
+    if (!are_possible(fst_flow_modes(&from->flow), &world.kinds))
         return 0;
     const fst_groups groups = run->flow->groups;
     run->window = from->window;
@@ -168,12 +163,13 @@ int fst_run_image_take(const void *bytes, size_t size, int numbers, fst_watched_
     run->end = from->end;
     run->settling = from->settling;
     *run->flow = from->flow;
-    run->flow->step.context.coefficients = coefficients;
+    *FST_WORLD(&run->flow->step) = world;
     run->flow->groups = groups;
+    run->flow->step.context.outside = NULL; /* no run has one */
     *place = from->place;
     if (place->station == FST_STATION_PARKED) {
         *exponent = from->exponent;
-        exponent->coefficients = &run->flow->step.context.coefficients;
+        exponent->world = fst_flow_world(run->flow);
     }
     *lane = (const double *)(from + 1);
     return 1;

@@ -38,7 +38,7 @@ void *fst_run_image_make(const fst_watched_run *run, const fst_exponent *exponen
                          int numbers, double **lane, size_t *size);
 
 /* Make a run that was just begun the one of an image, and where it is parked `exponent` what it waits for: 1,
- * or 0 (and the run is as it was) where the image is none of this build, or damaged.  *lane points into the
+ * or 0 (and the run is as it was) where the image is damaged or comes from another build.  *lane points into the
  * image. */
 int fst_run_image_take(const void *image, size_t size, int numbers, fst_watched_run *run,
                        fst_exponent *exponent, fst_run_place *place, const double **lane);

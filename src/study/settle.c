@@ -23,11 +23,10 @@
 
 #include "base/constants.h"
 #include "study/regime.h"
-#include "study/standstill.h"
 
 /* Drive periods, returns and cycles that the short window lasts: what a regime is decided on. */
 static const double LEAST_PERIODS = 5.5, LEAST_TURNS = 9.5;
-/* A window that is no shorter than this part of what is left of the run is not worth the trouble. */
+/* A window that is no shorter than this part of the rest of the run is not worth the trouble. */
 static const double WORTHWHILE = 0.5;
 /* Greatest |d(state)/dt| of a bead that stands still, in units of run.rtol or of the default tolerance (the
  * integrator's noise, docs/regimes.md), but no more than MOST_AT_REST: a faster bead may as well leave a place
@@ -44,18 +43,13 @@ enum {
 
 void fst_stand_at_end(fst_flow *flow)
 {
-    if (flow->step.context.coefficients.kinds.paced) {
+    if (fst_flow_world(flow)->kinds.modes) {
         fst_contact_begin_step(flow);
         flow->t_start = flow->t;
         flow->bead_angle_start = flow->bead_angle;
     } else {
         fst_flow_restart(flow);
     }
-}
-
-static int is_paced(const fst_watched_run *run)
-{
-    return run->flow->step.context.coefficients.kinds.paced;
 }
 
 void fst_settling_begin(fst_watched_run *run)
@@ -68,7 +62,8 @@ void fst_settling_begin(fst_watched_run *run)
     s->until = span->until;
     if (!s->asked)
         return;
-    span->states_only = s->discard > 0 && !is_paced(run); /* lanes observe contacts with modes from the start */
+    /* Lanes observe contacts with modes from the start. */
+    span->states_only = s->discard > 0 && !fst_flow_world(run->flow)->kinds.modes;
     span->from = 0.0;
     span->until = s->discard > 0 ? s->discard : s->until;
     run->window.returns.left_out.state = FST_LEFT_OUT_NEVER;
@@ -125,7 +120,7 @@ static double noise_of(const fst_watched_run *run)
 /* Whether the bead stands still at a place that it will leave, or was put down there. */
 static int is_repelled(const fst_watched_run *run)
 {
-    if (run->model->coefficients.kinds.dry)
+    if (run->model->world.kinds.dry)
         return !run->settling.has_moved;
     return fst_rest_rate(run->model, run->flow->step.end) > GROWS + noise_of(run);
 }

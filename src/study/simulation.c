@@ -13,42 +13,34 @@
 
 static void fill_sample(fst_flow *flow, double x, fst_twofold t, fst_sample *sample)
 {
+    fst_motion_double at;
     memset(sample, 0, sizeof *sample);
-    if (x == 1.0)
-        memcpy(sample->state, flow->step.end, sizeof sample->state);
-    else
-        fst_flow_at(flow, x, sample->state);
-    double whole, rest;
-    fst_flow_drive_turns(flow, t, &whole, &rest);
+    fst_flow_motion_at(flow, x, &at);
+    memcpy(sample->state, at.numbers, sizeof sample->state);
+    double whole, rest, place[3] = {0.0}, velocity[3] = {0.0}, lab[3];
+    fst_drive_turns(&flow->drive, t, &whole, &rest);
     const fst_winding angle = fst_flow_bead_angle(flow, x);
     sample->t = t.high;
     sample->drive_turns = whole + rest;
-    sample->omega = fst_flow_omega(flow, t);
+    sample->omega = fst_drive_rate_double(&flow->drive, t);
     sample->bead_angle = fst_winding_angle(&angle);
     sample->alpha = sample->bead_angle + FST_TWO_PI * (whole + rest);
-    const double c = cos(FST_TWO_PI * rest), s = sin(FST_TWO_PI * rest), *y = sample->state;
-    sample->x = c * y[FST_X] - s * y[FST_Y];
-    sample->y = s * y[FST_X] + c * y[FST_Y];
-    sample->v_lab[0] = c * y[FST_VX] - s * y[FST_VY];
-    sample->v_lab[1] = s * y[FST_VX] + c * y[FST_VY];
-    const double *from[2] = {y + FST_NX, y + FST_WX};
-    double *to[2] = {sample->n_lab, sample->w_lab};
-    for (int i = 0; i < 2; ++i) {
-        to[i][0] = c * from[i][0] - s * from[i][1];
-        to[i][1] = s * from[i][0] + c * from[i][1];
-        to[i][2] = from[i][2];
-    }
+    memcpy(place, at.numbers + FST_X, 2 * sizeof *place);
+    memcpy(velocity, at.numbers + FST_VX, 2 * sizeof *velocity);
+    fst_drive_to_laboratory(rest, place, lab);
+    sample->x = lab[0];
+    sample->y = lab[1];
+    fst_drive_to_laboratory(rest, velocity, lab);
+    memcpy(sample->v_lab, lab, sizeof sample->v_lab);
+    fst_drive_to_laboratory(rest, at.numbers + FST_NX, sample->n_lab);
+    fst_drive_to_laboratory(rest, at.numbers + FST_WX, sample->w_lab);
     sample->flies = fst_flight_is_on(flow);
-    if (sample->flies) {
-        fst_flight_at(flow, x, &sample->height, &sample->climb);
-        fst_raise_source_double(&flow->step.context, sample->height);
-    }
-    sample->seen = fst_observe_double(&flow->step.context.coefficients, sample->omega, y);
-    sample->seen.energy += fst_flight_energy(flow, x);
+    sample->height = at.numbers[FST_HEIGHT];
+    sample->climb = at.numbers[FST_CLIMB];
+    sample->seen = fst_observe_motion(fst_flow_world(flow), &at, sample->omega);
 }
 
-/* Every sample that falls into the last step, up to its fraction `until`. */
-static fst_status push_samples(fst_simulation *s, double until, fst_error *error)
+fst_status fst_simulation_samples(fst_simulation *s, double until, fst_error *error)
 {
     const fst_run_sink *sink = &s->options->sink;
     fst_flow *flow = s->run.flow;
@@ -77,11 +69,6 @@ static fst_status push_samples(fst_simulation *s, double until, fst_error *error
     }
 }
 
-fst_status fst_simulation_begin_samples(fst_simulation *s, fst_error *error)
-{
-    return push_samples(s, 1.0, error);
-}
-
 /* ------------------------------------------------------------------ steps */
 
 static fst_status report_progress(fst_simulation *s, fst_error *error)
@@ -90,7 +77,8 @@ static fst_status report_progress(fst_simulation *s, fst_error *error)
     const fst_flow *flow = s->run.flow;
     if (!progress || flow->accepted % 64 != 0)
         return FST_OK;
-    const double done = s->ramp.waits ? fst_ramp_progress(&s->ramp) : flow->t.high / s->run.settling.until;
+    const double done =
+        s->ramp.waits ? (double)s->ramp.piece / s->options->ramp_points : flow->t.high / s->run.settling.until;
     const double share = s->ramp.rate != 0.0 ? 1.0 : FST_RUN_SHARE; /* a ramp needs no exponent */
     return fst_tell(progress, share * done, NULL, error);
 }
@@ -101,8 +89,8 @@ fst_status fst_simulation_step(fst_simulation *s, double t_limit, fst_error *err
     if (status != FST_OK)
         return status;
     if (s->run.end.happened)
-        return push_samples(s, s->run.end.fraction, error);
-    status = push_samples(s, 1.0, error);
+        return fst_simulation_samples(s, s->run.end.fraction, error);
+    status = fst_simulation_samples(s, 1.0, error);
     if (status == FST_OK)
         (void)fst_settling_look(&s->run);
     if (status == FST_OK)

@@ -15,8 +15,9 @@ typedef struct fst_simulation {
     fst_ramp ramp;
 } fst_simulation;
 
-/* The samples at the present time, which no step has led to yet. */
-fst_status fst_simulation_begin_samples(fst_simulation *s, fst_error *error);
+/* Every sample that falls into the last step, up to its fraction `until`; at the start, which no step has led
+ * to, the one there. */
+fst_status fst_simulation_samples(fst_simulation *s, double until, fst_error *error);
 
 /* One step towards t_limit, with its samples, what it means for a ramp, and progress. */
 fst_status fst_simulation_step(fst_simulation *s, double t_limit, fst_error *error);

@@ -1,7 +1,7 @@
 /* standstill.c - is a state of rest stable?
  *
  * A bead may come to an unstable place of rest as near as 1e-8 and leave it only a hundred turns later, when
- * the deviation that the place repels has grown again.  How fast deviations grow tells at once: with the
+ * the deviation that the place repels has grown again.  How fast deviations grow shows it at once: with the
  * Jacobian J of the right-hand side at rest they are multiplied by exp(J t), whose norm goes as exp(rate t)
  * when t is long.  So a step's worth of it is squared again and again,
  *
@@ -12,7 +12,7 @@
  * projected out.  Where nothing acts on n it turns freely, and nothing depends on it: all of n is projected
  * out.
  */
-#include "study/standstill.h"
+#include "study/settle.h"
 
 #include <math.h>
 #include <string.h>
@@ -84,7 +84,7 @@ static void exponential(matrix a, matrix p, matrix m)
 double fst_rest_rate(const fst_model *model, const double state[FST_STATE_SIZE])
 {
     matrix j, p, a, m, square;
-    const fst_coefficients_double *c = &model->coefficients;
+    const fst_world_double *c = &model->world;
     fst_jacobian(model, state, j, NULL);
     across(state + FST_NX, c->hard == 0.0 && c->twice_b == 0.0, p);
     multiply(p, j, a);

@@ -34,13 +34,12 @@ fst_status fst_watched_run_begin(fst_watched_run *run, const fst_params *params,
         return status;
     fst_flow_options o = fst_default_flow_options();
     o.rtol = params->run_rtol;
-    o.controller = (fst_controller)params->run_controller;
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         o.atol[i] = params->run_rtol;
     status = fst_flow_new(run->model, &o, state, &run->flow, error);
     if (status != FST_OK)
         return status;
-    const double period = FST_TWO_PI / run->model->groups.omega;
+    const double period = fst_drive_period_double(run->model->groups.omega);
     const fst_span span = {.from = fst_run_discard(params) * period, .until = params->run_periods * period};
     fst_window_begin(&run->window, &span, period, run->flow);
     run->window.returns.left_out.rtol = params->run_rtol;

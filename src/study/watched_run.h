@@ -57,7 +57,7 @@ int fst_watched_run_ends(fst_watched_run *run);
 /* One step towards t_limit, and what it holds, unless it ends the run. */
 fst_status fst_watched_run_step(fst_watched_run *run, double t_limit, fst_error *error);
 
-/* At most so many steps towards the run's end; *over tells whether that is reached. */
+/* At most so many steps towards the run's end; *over: whether that is reached. */
 fst_status fst_watched_run_go_on(fst_watched_run *run, int steps, int *over, fst_error *error);
 
 #endif

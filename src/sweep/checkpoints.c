@@ -22,14 +22,27 @@ static sqlite3_int64 checksum(uint64_t identity, int64_t point, const void *imag
     return (sqlite3_int64)fst_checksum_bytes(fst_checksum_word(identity, (uint64_t)point), image, size);
 }
 
+/* The image in a row of point, size, checksum and image; NULL: it is damaged, or another point's. */
+static const void *sound_image(const fst_checkpoints *c, sqlite3_stmt *row, size_t *size)
+{
+    const void *image = sqlite3_column_blob(row, 3);
+    const int bytes = sqlite3_column_bytes(row, 3);
+    *size = image ? (size_t)bytes : 0;
+    return image && sqlite3_column_int64(row, 1) == bytes &&
+                   sqlite3_column_int64(row, 2) ==
+                       checksum(c->identity, sqlite3_column_int64(row, 0), image, *size)
+               ? image
+               : NULL;
+}
+
 static fst_status prepare(fst_checkpoints *c, fst_error *error)
 {
     if (sqlite3_prepare_v2(c->database,
                            "INSERT OR REPLACE INTO checkpoints SELECT ?1, ?2, ?3, ?4 "
                            "WHERE NOT EXISTS (SELECT 1 FROM rows WHERE point = ?1)",
                            -1, &c->put, NULL) == SQLITE_OK &&
-        sqlite3_prepare_v2(c->database, "SELECT size, checksum, image FROM checkpoints WHERE point = ?", -1,
-                           &c->get, NULL) == SQLITE_OK &&
+        sqlite3_prepare_v2(c->database, "SELECT point, size, checksum, image FROM checkpoints WHERE point = ?",
+                           -1, &c->get, NULL) == SQLITE_OK &&
         sqlite3_prepare_v2(c->database, "DELETE FROM checkpoints WHERE point = ?", -1, &c->drop, NULL) ==
             SQLITE_OK)
         return FST_OK;
@@ -93,17 +106,26 @@ void *fst_checkpoints_get(fst_checkpoints *c, int64_t point, size_t *size)
     if (!c->get)
         return NULL;
     (void)sqlite3_bind_int64(c->get, 1, point);
-    if (sqlite3_step(c->get) == SQLITE_ROW) {
-        const void *there = sqlite3_column_blob(c->get, 2);
-        const int bytes = sqlite3_column_bytes(c->get, 2);
-        *size = bytes > 0 ? (size_t)bytes : 0;
-        if (there && sqlite3_column_int64(c->get, 0) == bytes &&
-            sqlite3_column_int64(c->get, 1) == checksum(c->identity, point, there, *size) &&
-            (image = malloc(*size)))
-            memcpy(image, there, *size);
-    }
+    const void *there = sqlite3_step(c->get) == SQLITE_ROW ? sound_image(c, c->get, size) : NULL;
+    if (there && (image = malloc(*size)))
+        memcpy(image, there, *size);
     (void)sqlite3_reset(c->get);
     return image;
+}
+
+int64_t fst_checkpoints_damaged(fst_checkpoints *c)
+{
+    sqlite3_stmt *all = NULL;
+    size_t size;
+    int64_t damaged = 0;
+    int code = SQLITE_DONE;
+    if (c->get)
+        code = sqlite3_prepare_v2(c->database, "SELECT point, size, checksum, image FROM checkpoints", -1, &all,
+                                  NULL);
+    while (c->get && (code = sqlite3_step(all)) == SQLITE_ROW)
+        damaged += !sound_image(c, all, &size);
+    (void)sqlite3_finalize(all);
+    return damaged + fst_database_is_damage(code); /* further ones cannot be read */
 }
 
 fst_status fst_checkpoints_drop(fst_checkpoints *c, int64_t point, fst_error *error)

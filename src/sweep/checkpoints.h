@@ -3,7 +3,7 @@
  * The table `checkpoints` holds for a point the size of its image, a checksum, and the image.  The checksum
  * begins with the sweep's identity and covers point, size and image.  The table is made when the first image
  * comes, written in the same transactions as the rows, and dropped when the sweep is whole.  An image whose
- * checksum is wrong is ignored, and its run begins anew.
+ * checksum is wrong is told, and its run begins anew.
  */
 #ifndef FST_SWEEP_CHECKPOINTS_H
 #define FST_SWEEP_CHECKPOINTS_H
@@ -27,6 +27,9 @@ fst_status fst_checkpoints_put(fst_checkpoints *checkpoints, int64_t point, cons
 
 /* The image of a point, which the caller frees; NULL: there is none, or it is damaged. */
 void *fst_checkpoints_get(fst_checkpoints *checkpoints, int64_t point, size_t *size);
+
+/* How many images are damaged, or stand beside another point: their runs begin anew. */
+int64_t fst_checkpoints_damaged(fst_checkpoints *checkpoints);
 
 /* Remove the image of a point whose row was written in the same transaction. */
 fst_status fst_checkpoints_drop(fst_checkpoints *checkpoints, int64_t point, fst_error *error);

@@ -12,11 +12,11 @@
 const char *const fst_state_names[FST_STATE_SIZE] = {"X", "Y", "vX", "vY", "nX", "nY", "nZ", "WX", "WY", "WZ"};
 
 static const char FIRST[] =
-    "status TEXT, carried INTEGER, regime TEXT, symmetry TEXT, reason TEXT, dynamics TEXT, controller TEXT, "
+    "status TEXT, carried INTEGER, regime TEXT, symmetry TEXT, reason TEXT, dynamics TEXT, "
     "never_slips INTEGER";
 static const char COUNTS[] =
     "returns INTEGER, rhs_calls INTEGER, steps_accepted INTEGER, steps_rejected INTEGER";
-enum { FIRST_COUNT = 8, COUNT_COUNT = 4 };
+enum { FIRST_COUNT = 7, COUNT_COUNT = 4 };
 
 static int is_choice(const fst_grid *grid, int axis)
 {
@@ -30,9 +30,8 @@ int fst_sweep_column_count(const fst_grid *grid)
 
 char *fst_sweep_columns_sql(const fst_grid *grid)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
+    fst_printed printed;
+    FILE *out = fst_print_begin(&printed);
     if (!out)
         return NULL;
     (void)fputs("point INTEGER PRIMARY KEY", out);
@@ -45,21 +44,20 @@ char *fst_sweep_columns_sql(const fst_grid *grid)
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         (void)fprintf(out, ", final_%s REAL", fst_state_names[i]);
     (void)fputs(", checksum INTEGER", out);
-    return fclose(out) == 0 ? text : (free(text), NULL);
+    return fst_print_end(&printed);
 }
 
 char *fst_sweep_insert_sql(const fst_grid *grid)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
+    fst_printed printed;
+    FILE *out = fst_print_begin(&printed);
     if (!out)
         return NULL;
     (void)fputs("INSERT OR IGNORE INTO rows VALUES(?", out);
     for (int i = 0; i < fst_sweep_column_count(grid); ++i)
         (void)fputs(", ?", out);
     (void)fputs(")", out);
-    return fclose(out) == 0 ? text : (free(text), NULL);
+    return fst_print_end(&printed);
 }
 
 /* The definitions of the tables have been compared with ours, so that * means the columns above. */
@@ -70,9 +68,8 @@ char *fst_sweep_select_sql(void)
 
 char *fst_sweep_state_sql(void)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
+    fst_printed printed;
+    FILE *out = fst_print_begin(&printed);
     if (!out)
         return NULL;
     (void)fputs("SELECT status = 'done' AND regime NOT IN ('ejected', 'lifted')"
@@ -81,7 +78,7 @@ char *fst_sweep_state_sql(void)
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         (void)fprintf(out, ", final_%s", fst_state_names[i]);
     (void)fputs(" FROM rows WHERE point = ?1", out);
-    return fclose(out) == 0 ? text : (free(text), NULL);
+    return fst_print_end(&printed);
 }
 
 static uint64_t sum_real(uint64_t sum, double value)
@@ -165,8 +162,6 @@ void fst_sweep_bind(sqlite3_stmt *insert, const fst_grid *grid, uint64_t seed, c
     bind_text(&b, fst_symmetry_name(r->symmetry));
     bind_text(&b, r->reason);
     name_choice("model.dynamics", record->dynamics, name, sizeof name);
-    bind_text(&b, name);
-    name_choice("run.controller", record->controller, name, sizeof name);
     bind_text(&b, name);
     if (r->never_slips < 0)
         bind_null(&b);
@@ -263,8 +258,8 @@ int fst_sweep_row_is_sound(sqlite3_stmt *row, const fst_grid *grid, uint64_t see
 
 fst_status fst_sweep_check_key(const char *key, const char *where, fst_error *error)
 {
-    static const char *const texts[] = {"status", "reason", "dynamics", "controller"};
-    char names[4096] = "regime|symmetry|rhs_calls", nearest[48];
+    static const char *const texts[] = {"status", "reason", "dynamics"};
+    char names[4096] = "regime|symmetry|rhs_calls", suggestion[FST_SUGGESTION_SIZE];
     for (size_t i = 0; i < sizeof texts / sizeof *texts; ++i)
         if (strcmp(key, texts[i]) == 0)
             return fst_fail(error, FST_BAD_INPUT, where,
@@ -277,9 +272,10 @@ fst_status fst_sweep_check_key(const char *key, const char *where, fst_error *er
         const size_t used = strlen(names);
         (void)snprintf(names + used, sizeof names - used, "|%s", fst_result_at(i)->name);
     }
-    if (fst_nearest_name(key, names, nearest, sizeof nearest) == 0)
+    if (fst_name_place(key, names) >= 0)
         return FST_OK;
-    return fst_fail(error, FST_BAD_INPUT, where, "unknown key \"%.60s\"; the nearest is %s", key, nearest);
+    return fst_fail(error, FST_BAD_INPUT, where, "unknown key \"%.60s\"; %s", key,
+                    fst_suggest_name(key, names, suggestion));
 }
 
 int fst_sweep_place(sqlite3_stmt *row, const char *key)
@@ -297,10 +293,10 @@ double fst_sweep_number(sqlite3_stmt *rows, int column)
     if (sqlite3_column_type(rows, column) != SQLITE_TEXT)
         return sqlite3_column_double(rows, column);
     const char *text = (const char *)sqlite3_column_text(rows, column);
-    for (int i = FST_REGIME_UNDECIDED; i <= FST_REGIME_LIFTED; ++i)
+    for (int i = 0; i < FST_REGIME_COUNT; ++i)
         if (strcmp(text, fst_regime_name((fst_regime)i)) == 0)
             return i;
-    for (int i = FST_SYMMETRY_S1; i <= FST_SYMMETRY_S2; ++i)
+    for (int i = FST_SYMMETRY_S1; i < FST_SYMMETRY_COUNT; ++i)
         if (strcmp(text, fst_symmetry_name((fst_symmetry)i)) == 0)
             return i;
     return NAN;

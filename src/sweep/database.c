@@ -88,7 +88,7 @@ int fst_database_is_damage(int code)
 }
 
 /* The names of the files that SQLite keeps beside a database are longer than its own: FILE-journal, FILE-wal,
- * FILE-shm.  A new database is filled under a temporary name (host/whole_file.c), which is longer still. */
+ * FILE-shm.  A new database is filled under a temporary name (make.c), which is longer still. */
 static fst_status check_length(const char *path, const char *absolute, int is_new, fst_error *error)
 {
     enum {
@@ -166,8 +166,8 @@ static const char SIGNATURE[16] = "SQLite format 3"; /* with the zero behind it 
 int fst_database_begins(int descriptor)
 {
     char bytes[sizeof SIGNATURE];
-    return fst_read_at(descriptor, bytes, sizeof bytes, 0) == (ssize_t)sizeof bytes &&
-           memcmp(bytes, SIGNATURE, sizeof bytes) == 0;
+    const ssize_t got = fst_read_at(descriptor, bytes, sizeof bytes, 0);
+    return got < 0 || (got == (ssize_t)sizeof bytes && memcmp(bytes, SIGNATURE, sizeof bytes) == 0);
 }
 
 fst_status fst_database_head(int descriptor, const char *path, int writable, char mark[FST_MARK_SIZE],

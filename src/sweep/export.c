@@ -1,5 +1,4 @@
 /* export.c - the rows of a sweep as CSV, JSON and HDF5. */
-#include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -8,6 +7,7 @@
 #include "base/number.h"
 #include "host/regular_file.h"
 #include "host/whole_file.h"
+#include "io/json_writer.h"
 #include "io/load_hdf5.h"
 #include "sweep/columns.h"
 #include "sweep/database.h"
@@ -29,8 +29,8 @@ typedef struct exporter {
  * memory. */
 static char *tame_text(sqlite3_stmt *rows, int column)
 {
-    const unsigned char *text = sqlite3_column_text(rows, column);
-    char *tame = strdup(text ? (const char *)text : "");
+    const char *text = (const char *)sqlite3_column_text(rows, column);
+    char *tame = text ? strdup(text) : NULL;
     if (tame)
         fst_text_tame(tame);
     return tame;
@@ -38,40 +38,48 @@ static char *tame_text(sqlite3_stmt *rows, int column)
 
 enum { COLUMN_SIZE = 128 };
 
+/* NULL: no memory. */
 static const char *tame_name(sqlite3_stmt *rows, int column, char name[COLUMN_SIZE])
 {
     const char *given = sqlite3_column_name(rows, column);
     (void)snprintf(name, COLUMN_SIZE, "%s", given ? given : "");
     fst_text_tame(name);
-    return name;
+    return given ? name : NULL;
 }
 
-static void write_quoted(FILE *out, char *tame)
+static fst_status fail_memory(const exporter *e, fst_error *error)
+{
+    return fst_fail(error, FST_NO_MEMORY, e->path, "out of memory");
+}
+
+static void write_quoted(FILE *out, const char *tame)
 {
     (void)fputc('"', out);
-    for (const char *c = tame; c && *c; ++c) {
+    for (const char *c = tame; *c; ++c) {
         if (*c == '"')
             (void)fputc('"', out);
         (void)fputc(*c, out);
     }
     (void)fputc('"', out);
-    free(tame);
 }
 
-static void csv_head(exporter *e)
+static fst_status csv_head(exporter *e, fst_error *error)
 {
     for (int i = 0; i < e->columns; ++i) {
-        char name[COLUMN_SIZE];
-        (void)fprintf(e->stream, "%s%s", i ? "," : "", tame_name(e->row, i, name));
+        char column[COLUMN_SIZE];
+        const char *name = tame_name(e->row, i, column);
+        if (!name)
+            return fail_memory(e, error);
+        (void)fprintf(e->stream, "%s%s", i ? "," : "", name);
     }
     (void)fputc('\n', e->stream);
+    return FST_OK;
 }
 
 static fst_status csv_row(exporter *e, fst_error *error)
 {
-    (void)error;
     for (int i = 0; i < e->columns; ++i) {
-        char number[40];
+        char number[40], *text;
         if (i)
             (void)fputc(',', e->stream);
         switch (sqlite3_column_type(e->row, i)) {
@@ -83,7 +91,11 @@ static fst_status csv_row(exporter *e, fst_error *error)
             (void)fputs(number, e->stream);
             break;
         case SQLITE_TEXT:
-            write_quoted(e->stream, tame_text(e->row, i));
+            text = tame_text(e->row, i);
+            if (!text)
+                return fail_memory(e, error);
+            write_quoted(e->stream, text);
+            free(text);
             break;
         default: /* an undefined value stays empty */
             break;
@@ -95,48 +107,51 @@ static fst_status csv_row(exporter *e, fst_error *error)
 
 /* ------------------------------------------------------------------ JSON */
 
-static json_t *json_value(sqlite3_stmt *rows, int column)
+static void put_value(fst_json *json, const char *key, sqlite3_stmt *rows, int column)
 {
+    char *text;
     switch (sqlite3_column_type(rows, column)) {
     case SQLITE_INTEGER:
-        return json_integer((json_int_t)sqlite3_column_int64(rows, column));
+        fst_json_integer(json, key, sqlite3_column_int64(rows, column));
+        break;
     case SQLITE_FLOAT:
-        return json_real(sqlite3_column_double(rows, column));
-    case SQLITE_TEXT: {
-        char *tame = tame_text(rows, column);
-        json_t *value = tame ? json_string(tame) : NULL;
-        free(tame);
-        return value;
-    }
+        fst_json_real(json, key, sqlite3_column_double(rows, column));
+        break;
+    case SQLITE_TEXT:
+        text = tame_text(rows, column);
+        fst_json_put(json, key, text ? fst_json_text_value(text) : NULL);
+        free(text);
+        break;
     default:
-        return json_null();
+        fst_json_put(json, key, json_null());
     }
 }
 
-/* One object a line.  The components of the final state are gathered into one list, as `run` prints them. */
+/* One object a line.  The components of the final state, the last columns, are gathered into one list, as `run`
+ * prints them. */
 static fst_status json_row(exporter *e, fst_error *error)
 {
-    json_t *object = json_object(), *state = json_array();
+    int final = 0;
+    fst_json json = fst_json_begin('{');
     for (int i = 0; i < e->columns; ++i) {
         char column[COLUMN_SIZE];
         const char *name = tame_name(e->row, i, column);
-        json_t *value = json_value(e->row, i);
-        if (strcmp(name, "never_slips") == 0 && json_is_integer(value)) { /* as `run` prints it */
-            const int never = json_integer_value(value) != 0;
-            json_decref(value);
-            value = json_boolean(never);
+        json.failed |= !name;
+        if (name && !final && strncmp(name, "final_", 6) == 0) {
+            fst_json_open(&json, "final_state", '[');
+            final = 1;
         }
-        if (strncmp(name, "final_", 6) == 0)
-            (void)json_array_append_new(state, value);
+        if (strcmp(column, "never_slips") == 0 && sqlite3_column_type(e->row, i) == SQLITE_INTEGER)
+            fst_json_flag(&json, name, sqlite3_column_int(e->row, i) != 0); /* as `run` prints it */
         else
-            (void)json_object_set_new(object, name, value);
+            put_value(&json, final ? NULL : column, e->row, i);
     }
-    (void)json_object_set_new(object, "final_state", state);
-    char *text = json_dumps(object, JSON_COMPACT | JSON_REAL_PRECISION(17));
-    json_decref(object);
+    if (final)
+        fst_json_close(&json);
+    char *text = fst_json_end(&json, JSON_COMPACT);
     if (!text)
-        return fst_fail(error, FST_NO_MEMORY, e->path, "out of memory");
-    (void)fputs(text, e->stream);
+        return fail_memory(e, error);
+    (void)fprintf(e->stream, "%.*s", (int)strlen(text) - 1, text);
     free(text);
     return FST_OK;
 }
@@ -148,7 +163,7 @@ static fst_status write_text(exporter *e, fst_export_format format, fst_error *e
     fst_status status = FST_OK;
     int more, first = 1;
     if (format == FST_EXPORT_CSV)
-        csv_head(e);
+        status = csv_head(e, error);
     else
         (void)fputc('[', e->stream);
     while (status == FST_OK && (status = fst_sweep_rows_next(&e->rows, &more, error)) == FST_OK && more) {
@@ -186,12 +201,10 @@ static fst_status export_text(exporter *e, fst_export_format format, const char 
 /* The list of texts whose index stands in HDF5 for a column of texts; NULL where the column is left out. */
 static const char *codes_of(const char *column)
 {
-    static const char *const lists[][2] = {
-        {"regime", "undecided|locked|librating|counter-rotating|corotating|chaotic|ejected|lifted"},
-        {"symmetry", "none|S1|S2"},
-        {"dynamics", "rigid|farago2020"},
-        {"controller", "plain|damped"},
-        {"status", "done"}};
+    static const char *const lists[][2] = {{"regime", FST_WORDS(FST_REGIMES)},
+                                           {"symmetry", FST_WORDS(FST_SYMMETRIES)},
+                                           {"dynamics", FST_WORDS(FST_DYNAMICS)},
+                                           {"status", "done"}};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; ++i)
         if (strcmp(lists[i][0], column) == 0)
             return lists[i][1];
@@ -200,18 +213,11 @@ static const char *codes_of(const char *column)
     return info && info->kind == FST_KIND_CHOICE ? info->names : NULL;
 }
 
-/* The place of `text` in a '|'-separated list; NAN where it is not there. */
+/* The place of `text` in a list; NAN where it is not there. */
 static double code_of(const char *list, const char *text)
 {
-    const size_t length = strlen(text);
-    for (int i = 0;; ++i) {
-        const size_t here = strcspn(list, "|");
-        if (here == length && memcmp(list, text, here) == 0)
-            return i;
-        if (!list[here])
-            return NAN;
-        list += here + 1;
-    }
+    const int place = fst_name_place(text, list);
+    return place < 0 ? NAN : (double)place;
 }
 
 typedef struct hdf5_columns {
@@ -251,7 +257,9 @@ static int list_columns(exporter *e, hdf5_columns *c)
     for (int i = 0; i < e->columns; ++i) {
         const char *name = sqlite3_column_name(e->row, i);
         const char *type = sqlite3_column_decltype(e->row, i);
-        if (type && strcmp(type, "TEXT") == 0 && !codes_of(name))
+        if (!name || !type)
+            return 0;
+        if (strcmp(type, "TEXT") == 0 && !codes_of(name))
             continue; /* the reason is free text */
         describe(name, &c->infos[c->count]);
         c->pointers[c->count] = &c->infos[c->count];
@@ -260,34 +268,41 @@ static int list_columns(exporter *e, hdf5_columns *c)
     return 1;
 }
 
-static double hdf5_value(sqlite3_stmt *rows, int place)
+/* 0: no memory. */
+static int hdf5_value(sqlite3_stmt *rows, int place, double *value)
 {
+    const char *name = sqlite3_column_name(rows, place), *text;
     switch (sqlite3_column_type(rows, place)) {
     case SQLITE_NULL:
-        return NAN;
+        *value = NAN;
+        return 1;
     case SQLITE_TEXT:
-        return code_of(codes_of(sqlite3_column_name(rows, place)),
-                       (const char *)sqlite3_column_text(rows, place));
+        text = (const char *)sqlite3_column_text(rows, place);
+        *value = name && text ? code_of(codes_of(name), text) : NAN;
+        return name && text;
     default:
-        return sqlite3_column_double(rows, place);
+        *value = sqlite3_column_double(rows, place);
+        return 1;
     }
 }
 
-static fst_status fill_hdf5(exporter *e, const fst_hdf5_module_table *module, fst_whole_file *file,
+static fst_status fill_hdf5(exporter *e, const fst_hdf5_module_table *module, const fst_whole_file *file,
                             const hdf5_columns *c, fst_error *error)
 {
     const char *scene = fst_identity_text(&e->file.lines, "scene");
     fst_hdf5_writer *writer = NULL;
-    fst_status status =
-        module->create(file->temporary, file->path, c->pointers, c->count, scene ? scene : "", &writer, error);
+    fst_status status = module->create(file->path, c->pointers, c->count, scene ? scene : "", &writer, error);
     int more;
     while (status == FST_OK && (status = fst_sweep_rows_next(&e->rows, &more, error)) == FST_OK && more) {
-        for (int i = 0; i < c->count; ++i)
-            c->values[i] = hdf5_value(e->row, c->places[i]);
-        status = module->row(writer, c->values, error);
+        for (int i = 0; i < c->count && status == FST_OK; ++i)
+            if (!hdf5_value(e->row, c->places[i], &c->values[i]))
+                status = fail_memory(e, error);
+        if (status == FST_OK)
+            status = module->row(writer, c->values, error);
     }
     if (writer && status == FST_OK)
-        status = module->finish(writer, NULL, e->rows.sound == fst_grid_points(e->file.grid), error);
+        status =
+            module->finish(writer, NULL, e->rows.sound == fst_grid_points(e->file.grid), file->stream, error);
     else if (writer)
         module->abandon(writer);
     return status;
@@ -307,8 +322,6 @@ static fst_status export_hdf5(exporter *e, const char *out, fst_error *error)
     status = list_columns(e, &c) ? fst_whole_file_open(&file, out, error)
                                  : fst_fail(error, FST_NO_MEMORY, out, "out of memory");
     if (status == FST_OK) {
-        (void)fclose(file.stream); /* HDF5 opens the file by its name */
-        file.stream = NULL;
         status = fill_hdf5(e, module, &file, &c, error);
         if (status == FST_OK)
             status = fst_whole_file_commit(&file, error);

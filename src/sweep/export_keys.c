@@ -22,6 +22,7 @@ typedef struct table_writer {
     fst_sweep_file file;
     int is_refined;        /* points without a row are left out; else their results stay empty */
     int places[MOST_KEYS]; /* of the keys among the columns of the database */
+    int status;            /* the place of the status there */
     FILE *stream;
 } table_writer;
 
@@ -30,19 +31,10 @@ typedef struct table_writer {
 /* The unit of a parameter.  *shift: the power of ten by which a value in SI is more in it. */
 static const char *parameter_unit(const fst_param_info *info, fst_shown_units units, int *shift)
 {
-    static const struct {
-        fst_unit kind;
-        const char *name;
-    } lab[] = {{FST_UNIT_LENGTH, "mm"}, {FST_UNIT_MASS, "g"}, {FST_UNIT_FIELD, "mT"}};
     *shift = 0;
     if (info->kind != FST_KIND_REAL)
         return "1";
-    for (size_t i = 0; units == FST_SHOWN_LAB && i < sizeof lab / sizeof *lab; ++i)
-        if (info->unit == lab[i].kind) {
-            *shift = 3;
-            return lab[i].name;
-        }
-    return fst_unit_name(info->unit);
+    return units == FST_SHOWN_LAB ? fst_unit_customary(info->unit, shift) : fst_unit_name(info->unit);
 }
 
 /* The scaled unit of a result; "1" for what is no number of a run. */
@@ -75,10 +67,11 @@ static void write_head(const table_writer *w, const fst_scales *scales)
         (void)fputc(',', w->stream);
     }
     for (int i = 0; i < w->count; ++i) {
-        (void)fst_unit_shown(unit_of_result(w->keys[i]), w->units, scales, &unit);
+        (void)fst_number_shown(w->keys[i], unit_of_result(w->keys[i]), w->units, scales, &unit);
         write_name(w->stream, w->keys[i], unit);
-        (void)fputc(i + 1 < w->count ? ',' : '\n', w->stream);
+        (void)fputc(',', w->stream);
     }
+    (void)fputs("status\n", w->stream);
 }
 
 /* The digits are shifted, so that 0.009 m are 9 mm and not 9.000000000000002. */
@@ -110,8 +103,18 @@ static void write_result(const table_writer *w, const char *key, double value, c
         (void)snprintf(text, sizeof text, "%s", fst_symmetry_name((fst_symmetry)value));
     else if (isfinite(value))
         (void)fst_number_write(text, sizeof text,
-                               value * fst_unit_shown(unit_of_result(key), w->units, scales, &unit));
+                               value * fst_number_shown(key, unit_of_result(key), w->units, scales, &unit));
     (void)fputs(text, w->stream);
+}
+
+/* "done", "missing" where there is no row, or why the run failed: one of the texts of statuses. */
+static const char *status_of(sqlite3_stmt *row, int place)
+{
+    const char *text = row ? (const char *)sqlite3_column_text(row, place) : "missing";
+    for (int i = FST_BAD_INPUT; text && row && i < FST_STATUS_COUNT; ++i)
+        if (strcmp(text, fst_status_text((fst_status)i)) == 0)
+            return fst_status_text((fst_status)i);
+    return row ? "done" : text;
 }
 
 /* One line; `row` is NULL for a point without a row. */
@@ -126,8 +129,9 @@ static fst_status write_point(const table_writer *w, int64_t point, sqlite3_stmt
         write_parameter(w, i, point, &params);
     for (int i = 0; i < w->count; ++i) {
         write_result(w, w->keys[i], row ? fst_sweep_number(row, w->places[i]) : NAN, &scales);
-        (void)fputc(i + 1 < w->count ? ',' : '\n', w->stream);
+        (void)fputc(',', w->stream);
     }
+    (void)fprintf(w->stream, "%s\n", status_of(row, w->status));
     return FST_OK;
 }
 
@@ -146,6 +150,7 @@ static fst_status find_places(table_writer *w, sqlite3_stmt *row, fst_error *err
         return fst_fail(error, FST_BAD_INPUT, "fst_sweep_export_keys.keys", "at most %d keys", MOST_KEYS);
     for (int i = 0; i < w->count; ++i)
         w->places[i] = fst_sweep_place(row, w->keys[i]);
+    w->status = fst_sweep_place(row, "status");
     return FST_OK;
 }
 

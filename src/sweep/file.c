@@ -95,12 +95,12 @@ static fst_status look_beside(fst_sweep_file *file, int descriptor, int locked, 
 {
     char log[FST_LOG_NAME_SIZE];
     int reason;
-    if (!locked && fst_lock_look(descriptor) == FST_LOCK_TAKEN) {
+    if (!locked && fst_lock_is_taken(descriptor)) {
         file->log = FST_LOG_OWN;
         return FST_OK;
     }
     file->log = fst_log_look(file->path, file->mark, log, &reason);
-    if (!locked && fst_lock_look(descriptor) == FST_LOCK_TAKEN)
+    if (!locked && fst_lock_is_taken(descriptor))
         file->log = FST_LOG_OWN;
     else if (reason)
         return fst_fail(error, FST_IO, log, "reading this file failed: %s", strerror(reason));
@@ -185,15 +185,9 @@ fst_status fst_sweep_file_open(const char *name, int locked, fst_sweep_file *fil
     fst_status status = open_once(name, locked, file, error);
     if (status != FST_BAD_INPUT && !(status == FST_OK && file->finding[0]))
         return status;
-    /* SQLite reports some failed reads as damage.  A second look tells: real damage is found again. */
+    /* SQLite reports some failed reads as damage.  A second look decides: real damage is found again. */
     fst_sweep_file_close(file);
     return open_once(name, locked, file, error);
-}
-
-int fst_sweep_file_is_there(const char *path, const struct stat *opened)
-{
-    struct stat there;
-    return stat(path, &there) == 0 && there.st_dev == opened->st_dev && there.st_ino == opened->st_ino;
 }
 
 void fst_sweep_file_close(fst_sweep_file *file)
@@ -201,7 +195,7 @@ void fst_sweep_file_close(fst_sweep_file *file)
     /* The last connection to close writes the log into the file and removes the log by its name, so the name
      * must still lead to this file. */
     if (file->opened && file->log != FST_LOG_DAMAGED && !file->finding[0] &&
-        fst_sweep_file_is_there(file->path, &file->there))
+        fst_lock_is_there(file->path, &file->there))
         fst_database_allow_tidying(file->database);
     (void)sqlite3_close(file->database);
     fst_identity_free(&file->lines);

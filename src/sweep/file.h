@@ -30,9 +30,6 @@ fst_status fst_sweep_file_open(const char *name, int locked, fst_sweep_file *fil
 /* Also for a file that was filled with zeros. */
 void fst_sweep_file_close(fst_sweep_file *file);
 
-/* Whether the path still leads to the file that was opened. */
-int fst_sweep_file_is_there(const char *path, const struct stat *opened);
-
 /* The statements that make the tables of a new database; the caller frees them. */
 char *fst_sweep_file_tables(const fst_grid *grid, const char *mark);
 

@@ -25,6 +25,16 @@ static void add_line(fst_identity_lines *lines, const char *key, char *value)
     lines->values[lines->count++] = value;
 }
 
+/* The version of the bits of these rows: dry friction, if a row has it, has one of its own. */
+static int results_version(const fst_grid *grid)
+{
+    const fst_params *base = fst_grid_base(grid);
+    int dry = base->friction_law == FST_FRICTION_COULOMB || base->friction_law == FST_FRICTION_ROLLING;
+    for (int i = 0; i < fst_grid_axis_count(grid); ++i)
+        dry |= strncmp(fst_grid_axis_text(grid, i), "friction.law=", strlen("friction.law=")) == 0;
+    return dry ? FST_DRY_RESULTS_VERSION : FST_RESULTS_VERSION;
+}
+
 /* All lines that must be the same for a sweep to go on.  Of the scene the parameters must be, not the text. */
 static void wanted_lines(const fst_sweep_identity *identity, fst_identity_lines *lines)
 {
@@ -41,7 +51,7 @@ static void wanted_lines(const fst_sweep_identity *identity, fst_identity_lines 
     add_line(lines, "carry", strdup(carry[identity->carry]));
     add_line(lines, "arithmetic", strdup(fst_arithmetic_name(identity->arithmetic)));
     add_line(lines, "fingerprint", format_text("%016llx", (unsigned long long)identity->fingerprint));
-    add_line(lines, "results_version", format_text("%d", FST_RESULTS_VERSION));
+    add_line(lines, "results_version", format_text("%d", results_version(identity->grid)));
 }
 
 void fst_identity_free(fst_identity_lines *lines)

@@ -36,7 +36,6 @@
 #include "sweep/journal.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -122,52 +121,20 @@ static void release(fst_journal *journal)
     free(journal);
 }
 
-/* Open an existing file; *descriptor is -1 where it was removed meanwhile. */
-static fst_status open_existing(const char *name, const char *path, int *descriptor, fst_error *error)
-{
-    *descriptor = -1;
-    const fst_status status = fst_lock_check_own(path, name, error);
-    if (status != FST_OK)
-        return status;
-    *descriptor = open(path, O_RDWR | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-    if (*descriptor >= 0 || errno == ENOENT)
-        return FST_OK;
-    if (errno == EISDIR)
-        return fst_fail(error, FST_BAD_INPUT, name, "this is a directory, not a file");
-    if (errno == EACCES || errno == EPERM || errno == EROFS)
-        return fst_fail(error, FST_IO, name, "no permission to write this database (%s)", strerror(errno));
-    return fst_fail(error, FST_IO, name, "this database cannot be opened: %s", strerror(errno));
-}
-
-/* Open an existing file and take its lock; *descriptor is -1 where the file was removed meanwhile. */
-static fst_status lock_existing(const char *name, const char *path, int last, int *descriptor, fst_error *error)
+/* Take an existing file, if it is a sweep's; *descriptor is -1 where it cannot be had now. */
+static fst_status take_existing(const char *name, const char *path, int last, int *descriptor, fst_error *error)
 {
     char mark[FST_MARK_SIZE];
-    struct stat opened;
-    fst_status status = open_existing(name, path, descriptor, error);
+    fst_status status = fst_lock_open(name, path, 0, last, descriptor, error);
     if (*descriptor < 0)
         return status;
-    if (fstat(*descriptor, &opened) != 0 || !S_ISREG(opened.st_mode))
-        status = fst_fail(error, FST_BAD_INPUT, name, "this is a device or a pipe; a regular file is needed");
-    if (status == FST_OK)
-        status = fst_database_head(*descriptor, name, 1, mark, error);
-    const fst_lock_state state = status == FST_OK ? fst_lock_take(*descriptor) : FST_LOCK_FREE;
-    if (state == FST_LOCK_IMPOSSIBLE)
-        status =
-            fst_fail(error, FST_IO, name, "this file cannot be locked (%s): choose one on another file system",
-                     strerror(errno));
-    if (state == FST_LOCK_TAKEN && fst_lock_is_own(*descriptor, name, error)) {
-        *descriptor = -1; /* it stays open: closing it would end the locks of the other call */
-        return FST_IO;
-    }
-    if (state == FST_LOCK_TAKEN && last)
-        status = fst_lock_fail(*descriptor, name, error);
-    if (status == FST_OK && state == FST_LOCK_MINE && fst_sweep_file_is_there(path, &opened)) {
+    status = fst_database_head(*descriptor, name, 1, mark, error);
+    if (status == FST_OK) {
         fst_sweep_tidy(path);
-        return FST_OK;
+    } else {
+        (void)close(*descriptor);
+        *descriptor = -1;
     }
-    (void)close(*descriptor);
-    *descriptor = -1;
     return status;
 }
 
@@ -183,8 +150,9 @@ static fst_status take_file(const char *name, const char *path, const fst_sweep_
     for (int i = 0; i < TRIES && status == FST_OK && *descriptor < 0; ++i) {
         if (i > 0)
             (void)nanosleep(&moment, NULL);
-        status = fst_sweep_is_made(path) ? lock_existing(name, path, i == TRIES - 1, descriptor, error)
-                                         : fst_sweep_make(name, path, identity, descriptor, error);
+        status = fst_sweep_is_made(path)
+                     ? take_existing(name, path, i == TRIES - 1, descriptor, error)
+                     : fst_sweep_make(name, path, identity, i == TRIES - 1, descriptor, error);
     }
     if (status == FST_OK && *descriptor < 0)
         status =
@@ -386,7 +354,7 @@ static fst_status rescue(fst_journal *journal, fst_error *error)
 static fst_status check_place(fst_journal *journal, fst_error *error)
 {
     struct stat mine;
-    if (journal->is_away || fst_sweep_file_is_there(journal->file.path, &journal->file.there))
+    if (journal->is_away || fst_lock_is_there(journal->file.path, &journal->file.there))
         return FST_OK;
     journal->is_away = 1;
     (void)sqlite3_wal_checkpoint_v2(journal->file.database, NULL, SQLITE_CHECKPOINT_TRUNCATE, NULL, NULL);

@@ -28,7 +28,6 @@ typedef struct fst_sweep_record {
     int carried;       /* it started from its neighbour's end state */
     fst_status status; /* other than FST_OK: the run failed, and result.reason says why */
     int dynamics;      /* fst_dynamics */
-    int controller;    /* fst_controller */
     fst_run_result result;
 } fst_sweep_record;
 

@@ -9,24 +9,20 @@
 #define FST_SWEEP_LOCK_H
 
 #include <festoon/festoon_tools.h>
+#include <sys/stat.h>
 
-typedef enum {
-    FST_LOCK_FREE,
-    FST_LOCK_MINE,
-    FST_LOCK_TAKEN,     /* another command has it, or another sweep of this process */
-    FST_LOCK_IMPOSSIBLE /* this file system has no locks; errno tells more */
-} fst_lock_state;
+/* Open a file for writing, or make it (`is_new`), and take its lock; closing the descriptor gives it back.
+ * *descriptor is -1 where the file is missing, has lost its name meanwhile, or is another command's.  FST_IO,
+ * with a sentence: this process has the lock, or, in the `last` attempt, another one, and which; the file
+ * system has no locks; no permission. */
+fst_status fst_lock_open(const char *name, const char *path, int is_new, int last, int *descriptor,
+                         fst_error *error);
 
-/* Take the lock of an open file, which must be open for writing.  Closing the descriptor gives it back. */
-fst_lock_state fst_lock_take(int descriptor);
+/* Whether the path still leads to the file that was opened. */
+int fst_lock_is_there(const char *path, const struct stat *opened);
 
-/* Whether the file of a descriptor is locked: FST_LOCK_FREE or FST_LOCK_TAKEN. */
-fst_lock_state fst_lock_look(int descriptor);
-
-enum { FST_LOCK_OWNER_SIZE = 96 };
-
-/* "process 123 on HOST", or as much of it as is known. */
-void fst_lock_owner(int descriptor, char owner[FST_LOCK_OWNER_SIZE]);
+/* Whether another open file has the lock. */
+int fst_lock_is_taken(int descriptor);
 
 /* Whether this very process has a sweep at work on the file.  SQLite's own locks (F_SETLK) belong to a process:
  * all of them end as soon as the process closes any descriptor of the file, whatever that was opened for, and
@@ -34,13 +30,5 @@ void fst_lock_owner(int descriptor, char owner[FST_LOCK_OWNER_SIZE]);
  * before the file is opened.  FST_IO with a sentence: this process is at work on the file, which must not be
  * opened. */
 fst_status fst_lock_check_own(const char *path, const char *name, fst_error *error);
-
-/* The same for a descriptor that found the lock taken, because another thread opened the file at the same time.
- * 1: that thread has the lock, and `error` says so; the descriptor must stay open, because closing it would end
- * SQLite's locks. */
-int fst_lock_is_own(int descriptor, const char *name, fst_error *error);
-
-/* FST_IO with a sentence that says who is at work on `path`, the file of the descriptor. */
-fst_status fst_lock_fail(int descriptor, const char *path, fst_error *error);
 
 #endif

@@ -1,14 +1,12 @@
 /* make.c - making a database: nothing has its name until it is whole, and two commands never make two.
  *
- *  1. .NAME.HOST-PROCESS-0.part   is made, filled, synced and locked; nobody else knows of it
- *  2. .NAME.lock                  is locked: one command at a time goes through steps 3 to 5
- *  3. NAME-wal, -shm, -journal    of an earlier database are removed: SQLite would take them for the new one's
- *  4. NAME                        the file of step 1 is renamed to it, if nothing else has the name
- *  5. .NAME.lock                  is removed
+ *  1. .NAME.festoon.part          is made, locked, filled and synced; of several commands one has the lock
+ *  2. NAME-wal, -shm, -journal    of an earlier database are removed: SQLite would take them for the new one's
+ *  3. NAME                        the file of step 1 is renamed to it, if nothing else has the name
  *
  * The file keeps its lock when it is renamed, so another command that finds NAME also finds that it is in use.
  * A kill at any point leaves either no file of that name or a whole, unlocked database.  The next command to
- * that name removes what steps 1 and 2 left.
+ * that name begins step 1 anew, or removes the unfinished file.
  */
 #define _GNU_SOURCE /* renameat2() */
 #include "sweep/make.h"
@@ -17,7 +15,6 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "base/error.h"
@@ -103,158 +100,86 @@ static fst_status fill(const char *file, const char *name, const fst_sweep_ident
     return status;
 }
 
-/* Make a filled, locked and synced file beside the place; *descriptor holds the lock. */
-static fst_status make_part(const char *name, const char *path, const fst_sweep_identity *identity,
-                            const fst_sweep_file *from, fst_whole_file *part, int *descriptor, fst_error *error)
-{
-    *descriptor = -1;
-    fst_status status = fst_whole_file_open(part, path, error);
-    if (status != FST_OK)
-        return status;
-    (void)fclose(part->stream); /* SQLite opens it by its name */
-    part->stream = NULL;
-    status = fill(part->temporary, name, identity, from, error);
-    if (status == FST_OK) {
-        *descriptor = open(part->temporary, O_RDWR | O_CLOEXEC);
-        if (*descriptor < 0 || fsync(*descriptor) != 0)
-            status = fst_fail(error, FST_IO, name, "writing this file failed: %s", strerror(errno));
-        else if (fst_lock_take(*descriptor) != FST_LOCK_MINE)
-            status =
-                fst_fail(error, FST_IO, name,
-                         "this file cannot be locked (%s): choose one on another file system", strerror(errno));
-    }
-    if (status != FST_OK) {
-        if (*descriptor >= 0)
-            (void)close(*descriptor);
-        *descriptor = -1;
-        fst_whole_file_discard(part);
-    }
-    return status;
-}
+/* ------------------------------------------------------------------ the new file */
 
-/* ------------------------------------------------------------------ one command at a time */
-
-static char *lock_name(const char *path)
+static char *part_name(const char *path)
 {
     const char *slash = strrchr(path, '/');
-    char *name = malloc(strlen(path) + 16);
+    char *name = malloc(strlen(path) + 24);
     if (name)
-        (void)sprintf(name, "%.*s.%.240s.lock", (int)(slash + 1 - path), path, slash + 1);
+        (void)sprintf(name, "%.*s.%.240s.festoon.part", (int)(slash + 1 - path), path, slash + 1);
     return name;
 }
 
-static void wait_a_little(void)
+/* Make the new file: locked, filled and synced.  *descriptor is -1 where another command is making it. */
+static fst_status make_part(const char *name, const char *part, const fst_sweep_identity *identity,
+                            const fst_sweep_file *from, int last, int *descriptor, fst_error *error)
 {
-    const struct timespec time = {0, 20000000};
-    (void)nanosleep(&time, NULL);
+    fst_status status = part ? fst_lock_open(name, part, 1, last, descriptor, error)
+                             : fst_fail(error, FST_NO_MEMORY, name, "out of memory");
+    if (status != FST_OK || *descriptor < 0)
+        return status;
+    if (ftruncate(*descriptor, 0) != 0)
+        status = fst_fail(error, FST_IO, name, "writing this file failed: %s", strerror(errno));
+    if (status == FST_OK)
+        status = fill(part, name, identity, from, error);
+    if (status == FST_OK && fsync(*descriptor) != 0)
+        status = fst_fail(error, FST_IO, name, "writing this file failed: %s", strerror(errno));
+    return status;
 }
 
-/* Make the file of this name, if it is missing, and lock it.  The command that holds the lock removes the file
- * when it is done.  So the file that was locked may have lost its name meanwhile; then the next one is tried.
- */
-static fst_status lock_making(const char *lock, const char *name, int *descriptor, fst_error *error)
+/* Remove the new file of which nothing came, unless it has its name, and give its lock back. */
+static void give_up(const char *part, int *descriptor)
 {
-    enum { TRIES = 500 };
-    for (int i = 0; i < TRIES; ++i) {
-        struct stat opened;
-        *descriptor = open(lock, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-        if (*descriptor < 0)
-            return fst_fail(error, FST_IO, name, "cannot write here: %s", strerror(errno));
-        const fst_lock_state state = fst_lock_take(*descriptor);
-        if (state == FST_LOCK_MINE && fstat(*descriptor, &opened) == 0 &&
-            fst_sweep_file_is_there(lock, &opened))
-            return FST_OK;
-        fst_status status = FST_OK;
-        if (state == FST_LOCK_IMPOSSIBLE)
-            status =
-                fst_fail(error, FST_IO, name,
-                         "this file cannot be locked (%s): choose one on another file system", strerror(errno));
-        else if (state == FST_LOCK_TAKEN && i == TRIES - 1)
-            status = fst_lock_fail(*descriptor, name, error);
-        (void)close(*descriptor);
-        *descriptor = -1;
-        if (status != FST_OK)
-            return status;
-        if (state == FST_LOCK_TAKEN)
-            wait_a_little();
-    }
-    return fst_fail(error, FST_IO, name, "other commands keep making and removing this file: try again later");
+    struct stat opened;
+    if (*descriptor < 0)
+        return;
+    if (fstat(*descriptor, &opened) == 0 && fst_lock_is_there(part, &opened))
+        (void)unlink(part);
+    (void)close(*descriptor);
+    *descriptor = -1;
 }
 
 void fst_sweep_tidy(const char *path)
 {
-    struct stat opened;
-    char *lock = lock_name(path);
-    const int descriptor = lock ? open(lock, O_RDWR | O_CLOEXEC | O_NOFOLLOW) : -1;
-    if (descriptor >= 0) {
-        if (fst_lock_take(descriptor) == FST_LOCK_MINE && fstat(descriptor, &opened) == 0 &&
-            fst_sweep_file_is_there(lock, &opened))
-            (void)unlink(lock);
-        (void)close(descriptor);
-    }
-    free(lock);
-    fst_whole_file_tidy_beside(path);
+    char *part = part_name(path);
+    int descriptor = -1;
+    if (part && access(part, F_OK) == 0 && fst_lock_open(path, part, 1, 0, &descriptor, NULL) == FST_OK)
+        give_up(part, &descriptor);
+    free(part);
 }
 
-/* Rename a file unless something other than an empty file has the new name. */
-static int rename_if_free(const char *from, const char *to)
+/* Steps 2 and 3, with the lock held. */
+static fst_status give_name(const char *name, const char *path, const char *part, fst_error *error)
 {
     struct stat there;
-    if (stat(to, &there) == 0)
-        return S_ISREG(there.st_mode) && there.st_size == 0 ? rename(from, to) : (errno = EEXIST, -1);
-    if (renameat2(AT_FDCWD, from, AT_FDCWD, to, RENAME_NOREPLACE) == 0)
-        return 0;
-    if (errno == EEXIST)
-        return -1;
-    /* A file system without that call has links, or is too simple for two commands at once. */
-    if (link(from, to) == 0) {
-        (void)unlink(from);
-        return 0;
-    }
-    return errno == EEXIST ? -1 : rename(from, to);
-}
-
-/* Steps 3 and 4, with the lock held. *made is 0 where another command was faster. */
-static fst_status give_name(const char *name, const char *path, const fst_whole_file *part, int *made,
-                            fst_error *error)
-{
-    *made = 0;
-    if (fst_sweep_is_made(path))
-        return FST_OK;
     fst_status status = fst_log_remove(path, error);
     if (status != FST_OK)
         return status;
     (void)fst_sync_directory_of(path);
-    *made = rename_if_free(part->temporary, path) == 0;
-    if (!*made && errno != EEXIST)
+    /* Another program may have made a file of that name just now.  An empty one is replaced. */
+    int failed = stat(path, &there) == 0 ? (errno = EEXIST, -1)
+                                         : renameat2(AT_FDCWD, part, AT_FDCWD, path, RENAME_NOREPLACE);
+    if (failed && !fst_sweep_is_made(path))
+        failed = rename(part, path);
+    if (failed)
         return fst_fail(error, FST_IO, name, "writing this file failed: %s", strerror(errno));
     const int reason = fst_sync_directory_of(path);
     return reason ? fst_fail(error, FST_IO, name, "its directory cannot be synced: %s", strerror(reason))
                   : FST_OK;
 }
 
-fst_status fst_sweep_make(const char *name, const char *path, const fst_sweep_identity *identity,
+fst_status fst_sweep_make(const char *name, const char *path, const fst_sweep_identity *identity, int last,
                           int *descriptor, fst_error *error)
 {
-    fst_whole_file part;
-    int lock = -1, made = 0;
-    fst_status status = make_part(name, path, identity, NULL, &part, descriptor, error);
-    if (status != FST_OK)
-        return status;
-    char *locked = lock_name(path);
-    status = locked ? lock_making(locked, name, &lock, error)
-                    : fst_fail(error, FST_NO_MEMORY, name, "out of memory");
-    if (status == FST_OK) {
-        status = give_name(name, path, &part, &made, error);
-        (void)unlink(locked);
-        (void)close(lock);
-    }
-    free(locked);
-    fst_whole_file_discard(&part); /* removes nothing where the file has its name */
-    if (!made) {
-        (void)close(*descriptor);
-        *descriptor = -1;
-    }
+    char *part = part_name(path);
+    fst_status status = make_part(name, part, identity, NULL, last, descriptor, error);
+    const int is_faster = *descriptor >= 0 && fst_sweep_is_made(path); /* another command was */
+    if (status == FST_OK && *descriptor >= 0 && !is_faster)
+        status = give_name(name, path, part, error);
+    if (status != FST_OK || is_faster)
+        give_up(part, descriptor);
+    free(part);
     return status;
 }
 
@@ -288,26 +213,23 @@ static fst_status keep_damaged(const char *name, const char *path, fst_error *er
 fst_status fst_sweep_repair(fst_sweep_file *damaged, const fst_sweep_identity *identity, int *descriptor,
                             fst_error *error)
 {
-    fst_whole_file part;
     int repaired = -1;
     const char *name = damaged->name;
-    char *path = strdup(damaged->path);
-    fst_status status = path ? make_part(name, path, identity, damaged, &part, &repaired, error)
-                             : fst_fail(error, FST_NO_MEMORY, name, "out of memory");
+    char *path = strdup(damaged->path), *part = path ? part_name(path) : NULL;
+    fst_status status = make_part(name, part, identity, damaged, 1, &repaired, error);
     fst_sweep_file_close(damaged);
-    if (status == FST_OK) {
+    if (status == FST_OK)
         status = keep_damaged(name, path, error);
-        if (status == FST_OK && rename(part.temporary, path) != 0)
-            status = fst_fail(error, FST_IO, name, "writing this file failed: %s", strerror(errno));
-        (void)fst_sync_directory_of(path);
-        fst_whole_file_discard(&part);
-    }
+    if (status == FST_OK && rename(part, path) != 0)
+        status = fst_fail(error, FST_IO, name, "writing this file failed: %s", strerror(errno));
     if (status == FST_OK) {
+        (void)fst_sync_directory_of(path);
         (void)close(*descriptor);
         *descriptor = repaired;
-    } else if (repaired >= 0) {
-        (void)close(repaired);
+    } else {
+        give_up(part, &repaired);
     }
     free(path);
+    free(part);
     return status;
 }

@@ -5,8 +5,9 @@
 #include "sweep/file.h"
 
 /* Make a database without rows at `path`, an absolute path, unless there is one. *descriptor is then open on it
- * and holds its lock; it is -1 where another command was faster. */
-fst_status fst_sweep_make(const char *name, const char *path, const fst_sweep_identity *identity,
+ * and holds its lock; it is -1 where another command was faster, or is making it, which fails in the `last`
+ * attempt. */
+fst_status fst_sweep_make(const char *name, const char *path, const fst_sweep_identity *identity, int last,
                           int *descriptor, fst_error *error);
 
 /* Replace a damaged database, whose lock the caller holds, by a new one with its sound rows.  The damaged one

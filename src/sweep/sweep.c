@@ -449,6 +449,8 @@ static fst_status lead(sweep *s, const char *path, fst_error *error)
     if (status == FST_OK)
         status =
             fst_checkpoints_open(s->journal, fst_journal_identity_hash(&s->identity), &s->checkpoints, error);
+    if (status == FST_OK)
+        s->counts->begun_anew = fst_checkpoints_damaged(s->checkpoints);
     fst_ranks_start start = {status, s->identity.arithmetic, fst_journal_identity_hash(&s->identity)};
     fst_error silence;
     const fst_status shared = fst_ranks_share_start(&s->ranks, &start, status == FST_OK ? error : &silence);

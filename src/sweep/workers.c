@@ -86,7 +86,6 @@ static int row_done(void *user, fst_row_job *row, fst_status status, const fst_r
     record.carried = row->has_start;
     record.status = status;
     record.dynamics = row->params.model_dynamics;
-    record.controller = row->params.run_controller;
     record.result = *result;
     if (status != FST_OK)
         (void)snprintf(record.result.reason, sizeof record.result.reason, "%.255s", error->sentence);

@@ -14,9 +14,9 @@ static inline FN(even) FN(make_even)(const fst_params *params, const fst_groups 
 }
 
 static inline __attribute__((always_inline)) void
-FN(even_look)(const FN(even) * numbers, const fst_kinds *kinds, REAL x, REAL y, FN(local_field) * at)
+FN(even_look)(const FN(even) * numbers, const fst_kinds *kinds, REAL x, REAL y, REAL z, FN(local_field) * at)
 {
-    (void)kinds, (void)x, (void)y;
+    (void)kinds, (void)x, (void)y, (void)z;
     const REAL zero = R(0.0), one = R(1.0);
     const FN(local_field) here = {{zero, zero, numbers->field},
                                   {zero, zero, zero, numbers->slope, zero, zero},

@@ -6,10 +6,10 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* The first byte of VTK's formats is one that no table begins with. */
+/* VTK's file begins as no table does. */
 static fst_status read_map(const char *text, size_t size, fst_map_points *points)
 {
-    const int vtk = size > 6 && (text[0] == '<' || (text[0] == '#' && text[2] == 'v'));
+    const int vtk = size > 6 && text[0] == '#' && text[2] == 'v';
     return vtk ? fst_map_vtk_read(text, size, points) : fst_map_csv_read(text, size, points);
 }
 

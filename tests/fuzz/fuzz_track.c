@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "track/raw.h"
+#include "tracks/raw.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -25,7 +25,7 @@ static void check_track(fst_track *track)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    track_text text;
+    fst_text text;
     track_raw raw;
     fst_track track = {0};
     fst_track_options options = fst_default_track_options();
@@ -34,7 +34,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     options.scale = size % 3 ? NAN : 1.0;
     options.scale_unit = "px";
     track_raw_begin(&raw, "");
-    fst_status status = track_text_take(&text, "fuzz", (const char *)data, size, &error);
+    fst_status status = fst_text_take(&text, "fuzz", (const char *)data, size, &error);
     if (status == FST_OK)
         status = track_read_text(&text, &options, &raw, &error);
     if (status == FST_OK)
@@ -45,6 +45,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         abort();
     fst_track_free(&track);
     track_raw_free(&raw);
-    track_text_free(&text);
+    fst_text_free(&text);
     return 0;
 }

@@ -60,6 +60,8 @@ def check_tree(prefix):
         if not (prefix / place).is_file():
             raise SystemExit(f"{place} is not installed")
     run(program, "check", prefix / "share/doc/festoon/examples/paper-19.9Hz.yaml")
+    if "reproduced" not in run(program, "paper", "--statements"):
+        raise SystemExit("festoon paper --statements, of its own program, lists no statement")
     manual = only(prefix, "festoon.1").read_text(encoding="utf-8")
     for word in ("bead.radius", "mean_alpha_dot"):
         if word not in manual.replace("\\-", "-"):

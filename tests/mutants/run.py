@@ -62,7 +62,7 @@ def digest(path):
 def fingerprint_of_tree(names):
     """A text that changes if any file changes that is compiled or tested."""
     parts = [name + digest(os.path.join(SOURCE, name)) for name in names
-             if name.split("/")[0] in ("src", "include", "tests", "tools", "examples", "cmake", "CMakeLists.txt")
+             if name.split("/")[0] in ("src", "paper", "include", "tests", "tools", "examples", "cmake", "CMakeLists.txt")
              and not name.startswith(("tests/mutants/", "tests/reliability/"))]
     return hashlib.sha256("".join(parts).encode()).hexdigest()
 
@@ -127,6 +127,7 @@ class Tree:
     def __init__(self, place, number, jobs):
         self.root = os.path.join(place, f"tree-{number}")
         self.build, self.clean = os.path.join(self.root, "build"), os.path.join(place, f"clean-{number}")
+        self.log = self.root + ".log"  # not in the tree, of which tests ask that it hold no such file
         self.jobs, self.tests, self.times = jobs, {}, {}
 
     def make(self, *targets):
@@ -171,10 +172,9 @@ class Tree:
     def notices(self, name, confirm):
         """Returns in words how a test notices the fault, or None. With `confirm` the test is run again: if it passes
         the second time, it failed for another reason."""
-        log = os.path.join(self.root, "test.log")
-        how = self.tests[name].run(self.limit(name), log)
+        how = self.tests[name].run(self.limit(name), self.log)
         if how != "passed" and (confirm or how == "hangs"):
-            how = self.tests[name].run(self.limit(name), log)
+            how = self.tests[name].run(self.limit(name), self.log)
         return None if how == "passed" else f"{name} {how}"
 
     def judge(self, entry, quick):
@@ -265,9 +265,9 @@ def measure(tree, results, entries, all_tests):
         if name in times:
             continue
         begun = time.monotonic()
-        how = tree.tests[name].run(1200.0, os.path.join(tree.root, "test.log"))
+        how = tree.tests[name].run(1200.0, tree.log)
         if how != "passed":
-            raise SystemExit(f"{name} {how} without any fault: see {tree.root}/test.log")
+            raise SystemExit(f"{name} {how} without any fault: see {tree.log}")
         times[name] = round(time.monotonic() - begun, 2)
         print(f"{name}: {times[name]} s without a fault", flush=True)
         write_json(path, times)
@@ -396,11 +396,11 @@ def text_of(rows, survivors, few):
     text += section.table(*([HEAD, rows] if left else [HEAD[:5] + HEAD[6:], [row[:5] + row[6:] for row in rows]]))
     if left:
         text += f"\n\n{left} faults were not tried: `make mutants` goes on with them."
-    text += ("\n\nFaults that no test notices, and why that is accepted:\n\n" if survivors
+    text += ("\n\nFaults that no test notices (`why` in `tests/mutants` says why that is accepted):\n\n" if survivors
              else "\n\nTests noticed every fault that was tried.\n")
     for entry in survivors:
         what = " ".join(entry.comment) or "`" + " ".join(" ".join(entry.old).split()).replace("|", "\\|") + "`"
-        text += f"- `{entry.name}` in `{entry.path}` ({what}): {' '.join(entry.why) or 'no reason yet'}\n"
+        text += f"- `{entry.name}` in `{entry.path}` ({what}){'' if entry.why else ': no reason yet'}\n"
     if few and len(few) == len(survivors):
         text += "\nFor these faults only the likely tests were run.\n"
     elif few:
@@ -438,6 +438,8 @@ def main():
     complaints = listed.stale(entries, SOURCE)
     for complaint in complaints:
         print(f"stale: {complaint}")
+    if complaints:
+        return 1
     if not entries:
         raise SystemExit("no such fault: --list shows their names")
     names = copied_files()
@@ -452,8 +454,6 @@ def main():
             print(f"{entry.room:9} {entry.name:32} {entry.path:34} {known.get('outcome', 'not tried')} "
                   f"{known.get('by', '')[:60]}")
         return 0
-    if complaints:
-        return 1
     if any(not results.get(entry) for entry in entries):
         trees = [Tree(place, number, options.jobs) for number in range(1, options.trees + 1)]
         for tree in trees:

@@ -1,12 +1,11 @@
-/* faults.c - preloaded into the program by tests: disks that fail at a chosen moment.
+/* faults.c - preloaded into the program by tests: disks, and memory, that fail at a chosen moment.
  *
  *   FESTOON_FAULT=PROGRAM:CALL:ERROR:AT   in the process PROGRAM the AT-th CALL fails with the number ERROR
  *   FESTOON_FAULT_UNDER=DIR               only calls on regular files in this directory count
- *   FESTOON_FAULT_FIRED=FILE              made when the fault has happened; for "count" the numbers of calls go
- * there
+ *   FESTOON_FAULT_FIRED=FILE              made when the fault has happened; for "count" the numbers of calls go there
  *
  * CALL: write (write and pwrite), read (read and pread), fsync, rename, close, open (of new files), truncate,
- * once; "room": AT bytes can be written, then every write fails, as on a full disk; "short": every write takes
+ * memory (malloc, calloc, realloc and the aligned ones, wherever they are called), once; "room": AT bytes can be written, then every write fails, as on a full disk; "short": every write takes
  * at most AT bytes; "interrupted": every second write, read and fsync fails with EINTR; "vanish": before the
  * AT-th write or fsync the directory is renamed to DIR.gone; "kill": the process kills itself there; "count":
  * nothing fails.
@@ -26,8 +25,9 @@
 
 #define PUBLIC __attribute__((visibility("default")))
 
-enum { WRITE, READ, FSYNC, RENAME, CLOSE, OPEN, TRUNCATE, CALLS };
-static const char *const names[CALLS] = {"write", "read", "fsync", "rename", "close", "open", "truncate"};
+enum { WRITE, READ, FSYNC, RENAME, CLOSE, OPEN, TRUNCATE, MEMORY, CALLS };
+static const char *const names[CALLS] = {"write", "read", "fsync",    "rename",
+                                         "close", "open", "truncate", "memory"};
 
 static atomic_long calls[CALLS], written, moments, odd;
 static char wanted[32], under[4000];
@@ -242,4 +242,68 @@ PUBLIC int open64(const char *path, int flags, ...)
     const unsigned mode = flags & O_CREAT ? va_arg(more, unsigned) : 0;
     va_end(more);
     return open(path, flags | O_LARGEFILE, mode);
+}
+
+/* ---------------------------------------------------------------- memory */
+
+/* glibc's own names of what is replaced here: dlsym() could not tell them without memory. */
+extern void *__libc_malloc(size_t size);
+extern void *__libc_calloc(size_t count, size_t size);
+extern void *__libc_realloc(void *old, size_t size);
+extern void *__libc_memalign(size_t alignment, size_t size);
+
+static int starves(void)
+{
+    if (!active)
+        return 0;
+    const long number = atomic_fetch_add(&calls[MEMORY], 1) + 1;
+    if (!is_wanted("memory") || number != at)
+        return 0;
+    tell("fired\n");
+    errno = ENOMEM;
+    return 1;
+}
+
+PUBLIC void *malloc(size_t size)
+{
+    return starves() ? NULL : __libc_malloc(size);
+}
+
+PUBLIC void *calloc(size_t count, size_t size)
+{
+    return starves() ? NULL : __libc_calloc(count, size);
+}
+
+PUBLIC void *realloc(void *old, size_t size)
+{
+    return starves() ? NULL : __libc_realloc(old, size);
+}
+
+PUBLIC void *memalign(size_t alignment, size_t size)
+{
+    return starves() ? NULL : __libc_memalign(alignment, size);
+}
+
+PUBLIC void *aligned_alloc(size_t alignment, size_t size)
+{
+    return memalign(alignment, size);
+}
+
+PUBLIC int posix_memalign(void **memory, size_t alignment, size_t size)
+{
+    const int before = errno;
+    void *made = memalign(alignment, size);
+    if (made)
+        *memory = made;
+    errno = before;
+    return made ? 0 : ENOMEM;
+}
+
+/* For a test that is itself the program: count the allocations anew, and let the AT-th fail; 0: none.  Returns how
+ * many there were. */
+PUBLIC long faults_arm(long number)
+{
+    const long before = atomic_exchange(&calls[MEMORY], 0);
+    at = number;
+    return before;
 }

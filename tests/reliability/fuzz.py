@@ -67,7 +67,7 @@ def build(work, targets, level):
          f"-DCMAKE_C_FLAGS_DEBUG={level} -g1", "-DFESTOON_SANITIZE=address,undefined,fuzzer-no-link")
     done("cmake", "--build", tree, "--target", "festoon_internal")
     archive, = glob.glob(os.path.join(tree, "**", "libfestoon_internal.a"), recursive=True)
-    libraries = done("pkg-config", "--libs", "yaml-0.1", "jansson", "sqlite3").split()
+    libraries = done("pkg-config", "--libs", "yaml-0.1", "jansson", "sqlite3", "expat").split()
     for name in targets:
         done("clang", "-std=c11", "-D_POSIX_C_SOURCE=200809L", "-Werror", level, "-g1",
              "-fsanitize=fuzzer,address,undefined", "-fno-sanitize-recover=all", "-I", os.path.join(SOURCE, "include"),

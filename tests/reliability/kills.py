@@ -22,7 +22,7 @@ import tempfile
 import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path[:0] = [HERE, os.path.dirname(HERE)]
+sys.path[:0] = [HERE, os.path.join(os.path.dirname(HERE), "helpers")]
 FESTOON = os.environ.setdefault("FESTOON", os.path.join(HERE, "..", "..", "build", "festoon"))
 
 import events  # noqa: E402

@@ -4,16 +4,16 @@
  * piece are this source with own.reach = 1 and own.charge = 5.
  */
 typedef struct FN(charges) {
-    REAL charge, reach, shift, height;
+    REAL charge, reach, shift;
 } FN(charges);
 
 static inline FN(charges) FN(make_charges)(const fst_params *params, const fst_groups *g)
 {
+    (void)g;
     FN(charges) numbers;
     numbers.charge = REAL_OF(params->own_charge);
     numbers.reach = REAL_OF(params->own_reach);
     numbers.shift = REAL_OF(params->own_shift);
-    numbers.height = REAL_OF(g->h);
     return numbers;
 }
 
@@ -41,8 +41,9 @@ static inline __attribute__((always_inline)) void FN(add_charge)(REAL q, REAL x,
     t->yyz = t->yyz + z * (q7 * y * y - q5);
 }
 
-static inline __attribute__((always_inline)) void
-FN(charges_look)(const FN(charges) * numbers, const fst_kinds *kinds, REAL x, REAL y, FN(local_field) * at)
+static inline __attribute__((always_inline)) void FN(charges_look)(const FN(charges) * numbers,
+                                                                   const fst_kinds *kinds, REAL x, REAL y,
+                                                                   REAL z, FN(local_field) * at)
 {
     (void)kinds;
     const REAL zero = R(0.0), one = R(1.0);
@@ -50,8 +51,8 @@ FN(charges_look)(const FN(charges) * numbers, const fst_kinds *kinds, REAL x, RE
                                      {zero, zero, zero, zero, zero, zero},
                                      {one, one, zero, zero, zero, zero, zero, zero, zero, zero, zero}};
     *at = nothing;
-    FN(add_charge)(numbers->charge, x - (numbers->shift + numbers->reach), y, numbers->height, at);
-    FN(add_charge)(-numbers->charge, x - (numbers->shift - numbers->reach), y, numbers->height, at);
+    FN(add_charge)(numbers->charge, x - (numbers->shift + numbers->reach), y, z, at);
+    FN(add_charge)(-numbers->charge, x - (numbers->shift - numbers->reach), y, z, at);
 }
 
 SOURCE_ALONG_BY_LOOK(charges)

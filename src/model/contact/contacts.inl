@@ -1,29 +1,24 @@
 /* contacts.inl - what the plate does: the one in use of the contact laws of festoon/physics.def, over REAL.
  *
  * A law NAME is a file NAME.inl, included here, with a row in physics.def.  It supplies
- */
-/* clang-format off */
-/*
+ *
  *     NAME           a struct of its numbers, REALs alone (with lanes each lane has its own);
  *     make_NAME()    these numbers of the parameters and the scaled groups;
  *     NAME_force()   f of a contact: minus the plate's horizontal force on the bead, per mass;
  *     NAME_change()  the change of f as the contact changes by `by`: the exact derivative along that direction;
  *     NAME_loss()    the power that it takes from the motion, f.V and what else the law dissipates; at least 0.
- */
-/* clang-format on */
-/*
+ *
  * All by + - * / and square roots.  The equations of motion, their tangents, energies, orbits and lanes follow.
  *
  * Modes.  A law that is no single smooth function, such as dry friction, which slips or sticks, has several
- * smooth modes (the column `modes` of physics.def).  Its numbers say in which mode the bead is, constant within
- * a step; ode/contact.c decides when a mode ends and which one follows.  Only dry friction has that, so a row
- * of your own with more than one mode does not compile.
+ * smooth modes (the column `modes` of physics.def).  The motion says in which mode the bead is (modes.inl).
+ * Only dry friction has that, so a row of your own with more than one mode does not compile.
  *
  * Resistances.  The dry laws also act by a torque on a bead that rolls (resistance.inl), and where the contact
  * is a disc, on one that pivots (patch.inl).
  */
 
-/* Whether the contact has what only dry laws have: kinds.dry, paced, resists, patch, flies.  Lanes are compiled
+/* Whether the contact has what only dry laws have: kinds.dry, modes, resists, patch, flies.  Lanes are compiled
  * once for the dry laws (FST_DRY_LANES), at a point of contact, without flight and on a plate that does not
  * resist rolling, and once for all others: saying so here keeps the formulas of the ones out of the loops of
  * the others.
@@ -41,7 +36,7 @@
 #elif defined FST_DRY_LANES
 #define KNOWS_DRY 1
 #define DRY_LANES_dry(kinds) 1
-#define DRY_LANES_paced(kinds) ((kinds).paced)
+#define DRY_LANES_modes(kinds) ((kinds).modes)
 #define DRY_LANES_resists(kinds) 0
 #define DRY_LANES_patch(kinds) FST_PATCH_POINT
 #define DRY_LANES_flies(kinds) 0
@@ -53,21 +48,32 @@
 #define LAW_IS(NAME) (!IS_DRY(NAME) && kinds->contact == FST_FRICTION_##NAME)
 #endif
 
+/* The length of a horizontal vector. */
+static inline REAL FN(norm_2)(const REAL v[2])
+{
+    return REAL_SQRT(v[0] * v[0] + v[1] * v[1]);
+}
+
+#include "model/contact/lag.inl"
+#include "model/contact/modes.inl"
+
 /* What a law sees of the contact.  A law that needs more adds it here and in contact_of() and its tangent
  * (dynamics.inl, tangent.inl). */
 typedef struct FN(contact) {
     REAL slip[2]; /* V, velocity of the contact point */
     REAL load;    /* N, normal load per mass */
     /* For the dry laws only (kinds.dry): */
-    REAL push[2];    /* A: V' = A - (7/2) f */
-    REAL torque[3];  /* m, that of the resistances, per mass */
-    REAL balance[2]; /* T, of a bead that is kept from rolling (kinds.resists) */
+    const FN(modes) * modes; /* of the motion, */
+    REAL time;               /* and how long ago the step began, where a mode needs it */
+    REAL push[2];            /* A: V' = A - k f */
+    REAL share;              /* 1/k: f = A/k keeps a contact at rest */
+    REAL torque[3];          /* m, that of the resistances, per mass */
+    REAL balance[2];         /* T, of a bead that is kept from rolling (kinds.resists) */
     /* Where the contact is a disc (kinds.patch): */
     int patch;  /* FST_PATCH_* */
     REAL pivot; /* w = W.e */
 } FN(contact);
 
-#include "model/contact/lag.inl"
 #include "model/contact/patch.inl"
 #include "model/contact/resistance.inl"
 

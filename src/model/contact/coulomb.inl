@@ -2,16 +2,16 @@
  *
  * The plate's force on a contact that slips is mu N against the slip, whatever the speed.  A contact at rest
  * takes any force up to mu_s N, just what it needs to stay at rest: the bead rolls.  With A, the rate at which
- * the slip V would change without the plate's friction, V' = A - (7/2) f (dynamics.inl), and so
+ * the slip V would change without the plate's friction, V' = A - k f (dynamics.inl), and so
  *
- *     mode    while                    f
- *     slip    V != 0                   mu(|V|) N V/|V| + rate V
- *     stick   |A| <= (7/2) mu_s N      (2/7) A:  V stays 0
- *     onset   just released            mu(|V|) N u, u near A/|A|
- *     flight  in the air               0 (dynamics.inl leaves it no load; ode/flight.c)
+ *     mode    while                f
+ *     slip    V != 0               mu(|V|) N V/|V|
+ *     stick   |A| <= k mu_s N      A/k:  V stays 0
+ *     onset   just released        mu(|V|) N u, u near A/|A|
+ *     flight  in the air           0 (dynamics.inl leaves it no load; ode/flight.c)
  *
- * Onset.  Where |A| grows past (7/2) mu_s N and sliding friction is no weaker than static, the slip begins with
- * no speed and hardly any acceleration, in a direction that is known: lag.inl, with c = (7/2) mu N.
+ * Onset.  Where |A| grows past k mu_s N and sliding friction is no weaker than static, the slip begins with
+ * no speed and hardly any acceleration, in a direction that is known: lag.inl, with c = k mu N.
  *
  * A disc.  Where the contact is a disc (patch.inl), f in a slip is mu N tau V/|V|, and the plate resists
  * pivoting. Then slip includes the creep of a bead that pivots, stick is for a bead that does not pivot either,
@@ -20,13 +20,10 @@
  * Stribeck: mu(s) = mu_d + (mu_s - mu_d)/(1 + (s/v_S)^2).  Without a speed v_S friction falls at once.
  */
 typedef struct FN(coulomb) {
-    REAL mode;         /* FST_MODE_* (model/kinds.h): constant within a step */
-    FN(lag) lag;       /* of the onset */
     REAL sliding;      /* mu_d */
     REAL fall;         /* mu_s - mu_d where a Stribeck speed is given, else 0 */
     REAL holding;      /* mu_s */
     REAL stribeck;     /* 1/v_S^2, else 0 */
-    REAL rate;         /* viscous part, in gamma */
     REAL usual_slip_2; /* s_r^2 of the pace */
     REAL restitution;  /* e_n of an impact, where a bead may fly */
     FN(patch) patch;
@@ -40,13 +37,10 @@ static inline FN(coulomb) FN(make_coulomb)(const fst_params *params, const fst_g
     const double holding = rolls || isnan(params->friction_mu_static) ? sliding : params->friction_mu_static;
     const double speed = speed_si * g->time_unit / g->length_unit;
     const FN(coulomb) law = {
-        .mode = R(0.0),
-        .lag = {R(0.0), R(0.0), {R(0.0), R(0.0), R(0.0)}, R(0.0)},
         .sliding = REAL_OF(sliding),
         .fall = REAL_OF(isnan(speed) ? 0.0 : holding - sliding),
         .holding = REAL_OF(holding),
         .stribeck = REAL_OF(isnan(speed) ? 0.0 : 1.0 / (speed * speed)),
-        .rate = REAL_OF(rolls ? 0.0 : params->friction_contact_rate * g->time_unit),
         .usual_slip_2 = R(0.0025),
         .restitution = REAL_OF(isnan(params->impact_restitution) ? 0.0 : params->impact_restitution),
         .patch = FN(make_patch)(params, g),
@@ -72,20 +66,17 @@ static inline REAL FN(coulomb_load)(const FN(contact) * at)
     return REAL_MAX(at->load, R(0.0));
 }
 
-static inline REAL_MASK FN(coulomb_sticks)(const FN(coulomb) * law)
+static inline REAL_MASK FN(coulomb_sticks)(const FN(contact) * at)
 {
-    return REAL_LESS(REAL_ABS(law->mode - REAL_OF(FST_MODE_STICK)), R(0.5));
+    return FN(is_mode)(at->modes->contact, FST_MODE_STICK);
 }
 
-/* The mask of a slip that has just been let go, which is not of a direction of its own yet. */
-static inline REAL_MASK FN(coulomb_begins)(const FN(coulomb) * law)
+/* The grip: what friction of the coefficient mu could still take of the push, k mu N - |A|, with a relative
+ * slack; negative where the push is stronger. */
+static inline REAL FN(grip)(const FN(contact) * at, REAL yielding, REAL mu, REAL slack)
 {
-    return REAL_LESS(REAL_ABS(law->mode - REAL_OF(FST_MODE_ONSET)), R(0.5));
-}
-
-static inline REAL_MASK FN(coulomb_slips)(const FN(coulomb) * law)
-{
-    return REAL_LESS(law->mode, R(0.5));
+    const REAL most = yielding * mu * FN(coulomb_load)(at);
+    return most * (R(1.0) + slack) - FN(norm_2)(at->push);
 }
 
 /* ------------------------------------------------------------------ a disc */
@@ -107,8 +98,8 @@ static inline FN(rubbing) FN(coulomb_rubbing)(const FN(coulomb) * law, const FN(
     r.s2 = SUM_2(at->slip[0], at->slip[0], at->slip[1], at->slip[1]);
     r.dry = FN(coulomb_mu)(law, r.s2) * load;
     r.radius = FN(patch_radius)(&law->patch, load);
-    FN(pivoting_rate)(&law->patch, at->pivot, &r.rate, &r.side, &r.bend);
-    r.shares = FN(patch_shares)(at->patch, REAL_SQRT(r.s2), r.radius * r.rate);
+    FN(pivoting_rate)(at->modes->slow_2, at->pivot, &r.rate, &r.side, &r.bend);
+    r.shares = FN(hertz_shares)(REAL_SQRT(r.s2), r.radius * r.rate);
     return r;
 }
 
@@ -136,7 +127,7 @@ OF_DISC REAL FN(coulomb_pivoting)(const FN(coulomb) * law, const FN(contact) * a
 {
     const FN(rubbing) r = FN(coulomb_rubbing)(law, at);
     const REAL torque = r.dry * r.radius * r.shares.twist * r.side;
-    return REAL_SELECT(FN(coulomb_sticks)(law), -held, -torque);
+    return REAL_SELECT(FN(coulomb_sticks)(at), -held, -torque);
 }
 
 OF_DISC REAL FN(coulomb_pivoting_change)(const FN(coulomb) * law, const FN(contact) * at,
@@ -144,11 +135,11 @@ OF_DISC REAL FN(coulomb_pivoting_change)(const FN(coulomb) * law, const FN(conta
 {
     const FN(rubbing) r = FN(coulomb_rubbing)(law, at);
     const FN(rubbing_change) d = FN(coulomb_rubbing_change)(law, at, by, &r);
-    const REAL dtwist = REAL_MULADD(r.shares.twist_s, d.along, r.shares.twist_p * d.p);
+    const REAL dtwist = REAL_MULADD(r.shares.across, d.along, r.shares.twist_p * d.p);
     const REAL dmost = REAL_MULADD(d.dry, r.radius, r.dry * d.radius), most = r.dry * r.radius;
     const REAL change = SUM_3(dmost, r.shares.twist * r.side, most, dtwist * r.side, most,
                               r.shares.twist * (r.bend * by->pivot));
-    return REAL_SELECT(FN(coulomb_sticks)(law), -dheld, -change);
+    return REAL_SELECT(FN(coulomb_sticks)(at), -dheld, -change);
 }
 
 static inline REAL FN(coulomb_pivoting_loss)(const FN(coulomb) * law, const FN(contact) * at)
@@ -161,9 +152,9 @@ static inline REAL FN(coulomb_pivoting_loss)(const FN(coulomb) * law, const FN(c
 OF_DISC void FN(disc_force)(const FN(coulomb) * law, const FN(contact) * at, REAL force[2])
 {
     const FN(rubbing) r = FN(coulomb_rubbing)(law, at);
-    const REAL grip = REAL_MULADD(r.dry, r.shares.grip, law->rate);
+    const REAL grip = r.dry * r.shares.grip;
     for (int i = 0; i < 2; ++i)
-        force[i] = REAL_SELECT(FN(coulomb_sticks)(law), R(2.0) / R(7.0) * at->push[i], grip * at->slip[i]);
+        force[i] = REAL_SELECT(FN(coulomb_sticks)(at), at->share * at->push[i], grip * at->slip[i]);
 }
 
 OF_DISC void FN(disc_change)(const FN(coulomb) * law, const FN(contact) * at, const FN(contact) * by,
@@ -173,10 +164,10 @@ OF_DISC void FN(disc_change)(const FN(coulomb) * law, const FN(contact) * at, co
     const FN(rubbing_change) d = FN(coulomb_rubbing_change)(law, at, by, &r);
     const REAL dgrip = REAL_MULADD(r.shares.bend, d.along, r.shares.across * d.p);
     const REAL turned = REAL_MULADD(d.dry, r.shares.grip, r.dry * dgrip);
-    const REAL grip = REAL_MULADD(r.dry, r.shares.grip, law->rate);
+    const REAL grip = r.dry * r.shares.grip;
     for (int i = 0; i < 2; ++i) {
         const REAL slipping = REAL_MULADD(grip, by->slip[i], turned * at->slip[i]);
-        change[i] = REAL_SELECT(FN(coulomb_sticks)(law), R(2.0) / R(7.0) * by->push[i], slipping);
+        change[i] = REAL_SELECT(FN(coulomb_sticks)(at), at->share * by->push[i], slipping);
     }
 }
 
@@ -189,13 +180,13 @@ static inline void FN(coulomb_force)(const FN(coulomb) * law, const FN(contact) 
     const REAL *v = at->slip, *a = at->push;
     const REAL s2 = SUM_2(v[0], v[0], v[1], v[1]), dry = FN(coulomb_mu)(law, s2) * FN(coulomb_load)(at);
     const REAL inverse_s = REAL_RECIPROCAL_SQRT(s2 + R(1e-290));
-    const REAL_MASK sticks = FN(coulomb_sticks)(law), slips = REAL_LESS(law->mode, R(0.5));
+    const REAL_MASK sticks = FN(coulomb_sticks)(at), slips = FN(is_moving)(at->modes->contact);
     REAL u[2] = {R(0.0), R(0.0)};
-    if (REAL_ANY(REAL_LESS(R(1.5), law->mode)))
-        FN(lag_direction)(&law->lag, a, v, u);
+    if (REAL_ANY(REAL_LESS(R(1.5), at->modes->contact)))
+        FN(lag_direction)(&at->modes->onset, at->time, a, v, u);
     for (int i = 0; i < 2; ++i) {
-        const REAL slipping = REAL_MULADD(law->rate, v[i], dry * REAL_SELECT(slips, v[i] * inverse_s, u[i]));
-        force[i] = REAL_SELECT(sticks, R(2.0) / R(7.0) * a[i], slipping);
+        const REAL slipping = dry * REAL_SELECT(slips, v[i] * inverse_s, u[i]);
+        force[i] = REAL_SELECT(sticks, at->share * a[i], slipping);
     }
 }
 
@@ -216,13 +207,13 @@ static inline void FN(coulomb_change)(const FN(coulomb) * law, const FN(contact)
     const REAL ddry = REAL_MULADD(mu, dload, FN(coulomb_mu_by_s2)(law, s2) * ds2 * load);
     const REAL turning = mu * load * across * inverse_s;
     const REAL turned[2] = {-u[1], u[0]};
-    const REAL_MASK sticks = FN(coulomb_sticks)(law), slips = REAL_LESS(law->mode, R(0.5));
+    const REAL_MASK sticks = FN(coulomb_sticks)(at), slips = FN(is_moving)(at->modes->contact);
     REAL onset[2];
-    FN(lag_change)(&law->lag, at->push, v, by->push, dv, mu * load, ddry, onset);
+    FN(lag_change)(&at->modes->onset, at->time, at->push, v, by->push, dv, mu * load, ddry, onset);
     for (int i = 0; i < 2; ++i) {
-        const REAL slipping = REAL_MULADD(law->rate, dv[i], REAL_MULADD(ddry, u[i], turning * turned[i]));
-        const REAL released = REAL_SELECT(slips, slipping, REAL_MULADD(law->rate, dv[i], onset[i]));
-        change[i] = REAL_SELECT(sticks, R(2.0) / R(7.0) * by->push[i], released);
+        const REAL slipping = REAL_MULADD(ddry, u[i], turning * turned[i]);
+        const REAL released = REAL_SELECT(slips, slipping, onset[i]);
+        change[i] = REAL_SELECT(sticks, at->share * by->push[i], released);
     }
 }
 
@@ -232,32 +223,30 @@ static inline REAL FN(coulomb_loss)(const FN(coulomb) * law, const FN(contact) *
     if (at->patch != FST_PATCH_POINT) {
         REAL force[2];
         FN(disc_force)(law, at, force);
-        return REAL_SELECT(FN(coulomb_sticks)(law), R(0.0),
-                           SUM_2(force[0], at->slip[0], force[1], at->slip[1]));
+        return REAL_SELECT(FN(coulomb_sticks)(at), R(0.0), SUM_2(force[0], at->slip[0], force[1], at->slip[1]));
     }
-    const REAL loss = FN(coulomb_mu)(law, s2) * FN(coulomb_load)(at) * REAL_SQRT(s2) + law->rate * s2;
-    const REAL_MASK sticks = FN(coulomb_sticks)(law);
-    return REAL_SELECT(sticks, R(0.0), loss);
+    const REAL loss = FN(coulomb_mu)(law, s2) * FN(coulomb_load)(at) * REAL_SQRT(s2);
+    return REAL_SELECT(FN(coulomb_sticks)(at), R(0.0), loss);
 }
 
 /* dt/dtheta of the time theta in which slip is integrated: sigma = s/sqrt(s^2 + s_r^2), with s how fast the
  * contact moves (motion_2 = s^2).  In theta a slip that dies in a finite time decays exponentially, its
- * direction turns no faster than at a bounded rate, and all is smooth (ode/contact.c tells more).  On a disc, s
- * counts pivoting: the rate (7/2) (3 pi/8) mu N/(a |w|) at which a creep settles is bounded in theta too,
+ * direction turns no faster than at a bounded rate, and all is smooth (more in ode/contact.c).  On a disc, s
+ * counts pivoting: the rate k (3 pi/8) mu N/(a |w|) at which a creep settles is bounded in theta too,
  * however slowly the bead pivots.  A bead that sticks, or has just been released, is integrated in time. */
-static inline REAL FN(coulomb_pace)(const FN(coulomb) * law, REAL motion_2)
+static inline REAL FN(coulomb_pace)(const FN(coulomb) * law, REAL mode, REAL motion_2)
 {
     const REAL pace = REAL_SQRT(motion_2 / (motion_2 + law->usual_slip_2));
-    return REAL_SELECT(REAL_LESS(law->mode, R(0.5)), pace, R(1.0));
+    return REAL_SELECT(FN(is_moving)(mode), pace, R(1.0));
 }
 
 /* Its change as motion_2 changes. */
-static inline REAL FN(coulomb_pace_change)(const FN(coulomb) * law, REAL motion_2, REAL change)
+static inline REAL FN(coulomb_pace_change)(const FN(coulomb) * law, REAL mode, REAL motion_2, REAL change)
 {
     const REAL whole = motion_2 + law->usual_slip_2;
     const REAL by =
         R(0.5) * change * law->usual_slip_2 * REAL_RECIPROCAL_SQRT((motion_2 + R(1e-290)) * whole) / whole;
-    return REAL_SELECT(REAL_LESS(law->mode, R(0.5)), by, R(0.0));
+    return REAL_SELECT(FN(is_moving)(mode), by, R(0.0));
 }
 
 #undef OF_DISC

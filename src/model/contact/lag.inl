@@ -12,26 +12,25 @@
  * (ode/onset.c).
  */
 typedef struct FN(lag) {
-    REAL lean;    /* now, */
-    REAL slip;    /* and how it grows with |v| */
-    REAL then[3]; /* lean as the polynomial in the time since the release */
+    REAL slip;    /* how the angle over |v| grows with |v| */
+    REAL lean[3]; /* the polynomial in the time since the release */
     REAL since;   /* that time at the start of the step */
 } FN(lag);
 
 /* `lean` at a time after the start of the step. */
-static inline void FN(lag_at)(FN(lag) * q, REAL time)
+static inline REAL FN(lean_at)(const FN(lag) * q, REAL time)
 {
-    const REAL *p = q->then, since = q->since + time;
-    q->lean = REAL_MULADD(since, REAL_MULADD(since, p[2], p[1]), p[0]);
+    const REAL *p = q->lean, since = q->since + time;
+    return REAL_MULADD(since, REAL_MULADD(since, p[2], p[1]), p[0]);
 }
 
-/* The direction u of the velocity v under the push a. */
-static inline void FN(lag_direction)(const FN(lag) * q, const REAL a[2], const REAL v[2], REAL u[2])
+/* The direction u of the velocity v under the push a, at a time after the start of the step. */
+static inline void FN(lag_direction)(const FN(lag) * q, REAL time, const REAL a[2], const REAL v[2], REAL u[2])
 {
     const REAL inverse_a = REAL_RECIPROCAL_SQRT(SUM_2(a[0], a[0], a[1], a[1]) + R(1e-290));
     const REAL ahead[2] = {a[0] * inverse_a, a[1] * inverse_a}; /* a/|a|, and u as it lags behind */
     const REAL along = SUM_2(v[0], ahead[0], v[1], ahead[1]);
-    const REAL lag = along * REAL_MULADD(q->slip, along, q->lean);
+    const REAL lag = along * REAL_MULADD(q->slip, along, FN(lean_at)(q, time));
     const REAL inverse_u = REAL_RECIPROCAL_SQRT(R(1.0) + lag * lag);
     u[0] = (ahead[0] + lag * ahead[1]) * inverse_u;
     u[1] = (ahead[1] - lag * ahead[0]) * inverse_u;
@@ -39,16 +38,16 @@ static inline void FN(lag_direction)(const FN(lag) * q, const REAL a[2], const R
 
 /* The change of a force `dry` u as v, a and `dry` change: the direction of a turns, and u lags behind by
  * another speed.  `lean` is that of the release. */
-static inline void FN(lag_change)(const FN(lag) * q, const REAL a[2], const REAL v[2], const REAL da[2],
-                                  const REAL dv[2], REAL dry, REAL ddry, REAL change[2])
+static inline void FN(lag_change)(const FN(lag) * q, REAL time, const REAL a[2], const REAL v[2],
+                                  const REAL da[2], const REAL dv[2], REAL dry, REAL ddry, REAL change[2])
 {
     const REAL inverse_a = REAL_RECIPROCAL_SQRT(SUM_2(a[0], a[0], a[1], a[1]) + R(1e-290));
     const REAL ahead[2] = {a[0] * inverse_a, a[1] * inverse_a};
     const REAL turned = SUM_2(ahead[0], da[1], -ahead[1], da[0]) * inverse_a; /* angle of a */
     const REAL along = SUM_2(v[0], ahead[0], v[1], ahead[1]), across = SUM_2(ahead[0], v[1], -ahead[1], v[0]);
     const REAL dalong = SUM_2(dv[0], ahead[0], dv[1], ahead[1]) + across * turned;
-    const REAL lag = along * REAL_MULADD(q->slip, along, q->lean);
-    const REAL dlag = dalong * REAL_MULADD(R(2.0) * q->slip, along, q->lean);
+    const REAL lean = FN(lean_at)(q, time), lag = along * REAL_MULADD(q->slip, along, lean);
+    const REAL dlag = dalong * REAL_MULADD(R(2.0) * q->slip, along, lean);
     const REAL inverse_u = REAL_RECIPROCAL_SQRT(R(1.0) + lag * lag);
     const REAL u[2] = {(ahead[0] + lag * ahead[1]) * inverse_u, (ahead[1] - lag * ahead[0]) * inverse_u};
     const REAL turning = dry * (turned - dlag * inverse_u * inverse_u); /* the lag is the tangent of an angle */

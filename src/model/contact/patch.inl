@@ -25,12 +25,9 @@
  *
  * Both are derivatives of one potential (by |V| and |w|): the tangents need tau'(nu) alone.
  *
- * `pade` are Zhuravlev's fractions tau = nu/(nu + 8/(3 pi)), m = (3 pi/16)/(1 + (15 pi/16) nu), which engineers
- * use in place of all this.  They have the right limits and are up to 48 % too small in between.
- *
  * With w != 0 nothing sticks: f is smooth at V = 0, and a bead that a point would hold creeps at some fraction
  * of a |w|.  At w = 0 the direction of w is not defined: below a `slow`, which is far below any rotation and
- * follows the tolerance of a trajectory (ode/disc.c), |w| bends smoothly to (5/16) slow instead of 0.  A bead
+ * follows the tolerance of a trajectory (model/disc.c), |w| bends smoothly to (5/16) slow instead of 0.  A bead
  * that neither slips nor pivots at all is held by a mode of its own (stick, coulomb.inl).
  *
  * The radius follows the load, a = (3 N R/(4 E*))^(1/3) with N in newtons, where the modulus E* is given.
@@ -38,7 +35,6 @@
 typedef struct FN(patch) {
     REAL radius; /* a; where it follows the load, that at the load `1/growth` */
     REAL growth; /* 0: a is given */
-    REAL slow_2; /* slow^2 */
 } FN(patch);
 
 /* ------------------------------------------------------------------ functions */
@@ -74,14 +70,13 @@ static inline REAL FN(angle_of)(REAL sine, REAL cosine)
 /* ------------------------------------------------------------------ force and torque */
 
 /* tau and m at the slip speed s and the pivoting speed p = a |w|, in the form in which they are needed: all are
- * finite at s = 0 but `bend` of pade. */
+ * finite at s = 0. */
 typedef struct FN(shares) {
     REAL grip;    /* tau/s */
     REAL bend;    /* its derivative by s, over s */
-    REAL across;  /* its derivative by p; of hertz also that of m by s, over s */
+    REAL across;  /* its derivative by p, which is also that of m by s, over s */
     REAL twist;   /* m */
-    REAL twist_s; /* its derivative by s, over s */
-    REAL twist_p; /* and by p */
+    REAL twist_p; /* its derivative by p */
 } FN(shares);
 
 static inline FN(shares) FN(hertz_near)(REAL s, REAL p)
@@ -92,7 +87,6 @@ static inline FN(shares) FN(hertz_near)(REAL s, REAL p)
     at.bend = -(R(0.5) * c * inverse * inverse * inverse);
     at.across = -(c * inverse * inverse * (R(1.0) - R(0.75) * nu2));
     at.twist = R(0.5) * c * (R(1.0) - nu2 + R(0.375) * nu2 * nu2);
-    at.twist_s = at.across;
     at.twist_p = -(nu * s * at.across);
     return at;
 }
@@ -108,7 +102,6 @@ static inline FN(shares) FN(hertz_middle)(REAL s, REAL p)
     at.bend = (by_nu / p - at.grip) * inverse_s * inverse_s;
     at.across = -(by_nu / (p * p));
     at.twist = R(0.75) * (R(0.5) * (R(1.0) - nu2 + R(0.375) * nu2 * nu2) * t + R(0.1875) * (R(2.0) - nu2) * q);
-    at.twist_s = at.across;
     at.twist_p = nu2 * by_nu / p;
     return at;
 }
@@ -148,7 +141,6 @@ static inline FN(shares) FN(hertz_far)(REAL s, REAL p)
     at.across = -(y * slope * inverse_s * inverse_s);
     at.bend = (y2 * slope * inverse_s - at.grip) * inverse_s * inverse_s;
     at.twist = y * twist;
-    at.twist_s = at.across;
     at.twist_p = slope * inverse_s;
     return at;
 }
@@ -165,30 +157,9 @@ static inline FN(shares) FN(hertz_shares)(REAL s, REAL p)
     at.bend = REAL_SELECT(near, a.bend, REAL_SELECT(far, c.bend, b.bend));
     at.across = REAL_SELECT(near, a.across, REAL_SELECT(far, c.across, b.across));
     at.twist = REAL_SELECT(near, a.twist, REAL_SELECT(far, c.twist, b.twist));
-    at.twist_s = REAL_SELECT(near, a.twist_s, REAL_SELECT(far, c.twist_s, b.twist_s));
     at.twist_p = REAL_SELECT(near, a.twist_p, REAL_SELECT(far, c.twist_p, b.twist_p));
     return at;
 #endif
-}
-
-static inline FN(shares) FN(pade_shares)(REAL s, REAL p)
-{
-    const REAL pi = REAL_OF(FST_PI), c = R(8.0) / (R(3.0) * pi), d = R(15.0) * pi / R(16.0);
-    const REAL force = R(1.0) / (s + c * p), torque = R(1.0) / (p + d * s), most = R(3.0) * pi / R(16.0);
-    const REAL inverse_s = R(1.0) / (s + R(1e-140));
-    FN(shares) at;
-    at.grip = force;
-    at.bend = -(force * force * inverse_s);
-    at.across = -(c * force * force);
-    at.twist = most * p * torque;
-    at.twist_s = -(most * d * p * torque * torque * inverse_s);
-    at.twist_p = most * d * s * torque * torque;
-    return at;
-}
-
-static inline FN(shares) FN(patch_shares)(int form, REAL s, REAL p)
-{
-    return form == FST_PATCH_PADE ? FN(pade_shares)(s, p) : FN(hertz_shares)(s, p);
 }
 
 /* ------------------------------------------------------------------ the patch at a contact */
@@ -204,7 +175,6 @@ static inline FN(patch) FN(make_patch)(const fst_params *params, const fst_group
     const FN(patch) patch = {
         .radius = isnan(modulus) ? given : FN(cube_root)(cube),
         .growth = REAL_OF(isnan(modulus) ? 0.0 : 1.0 / usual),
-        .slow_2 = R(1e-12),
     };
     return patch;
 }
@@ -224,9 +194,9 @@ static inline REAL FN(patch_radius_by_load)(const FN(patch) * q, REAL load, REAL
 
 /* |w|, its derivative `side`, and the derivative of that.  For x = |w|/slow < 1 it is
  * slow (5 + 15 x^2 - 5 x^4 + x^6)/16, which joins |w| there with three derivatives. */
-static inline void FN(pivoting_rate)(const FN(patch) * q, REAL w, REAL *rate, REAL *side, REAL *bend)
+static inline void FN(pivoting_rate)(REAL slow_2, REAL w, REAL *rate, REAL *side, REAL *bend)
 {
-    const REAL slow = REAL_SQRT(q->slow_2), size = REAL_ABS(w), x = w / slow, x2 = x * x, rest = R(1.0) - x2;
+    const REAL slow = REAL_SQRT(slow_2), size = REAL_ABS(w), x = w / slow, x2 = x * x, rest = R(1.0) - x2;
     const REAL_MASK inside = REAL_LESS(size, slow);
     const REAL even = R(5.0) + x2 * (R(15.0) + x2 * (x2 - R(5.0)));
     const REAL odd = x * (R(15.0) + x2 * (R(3.0) * x2 - R(10.0)));
@@ -236,7 +206,7 @@ static inline void FN(pivoting_rate)(const FN(patch) * q, REAL w, REAL *rate, RE
 }
 
 /* |V|^2 + (a |w|)^2, a that of the usual load: what the pace of a step is measured by. */
-static inline REAL FN(patch_motion_2)(const FN(patch) * q, REAL s2, REAL w)
+static inline REAL FN(patch_motion_2)(const FN(patch) * q, REAL slow_2, REAL s2, REAL w)
 {
-    return REAL_MULADD(q->radius * q->radius, REAL_MULADD(w, w, q->slow_2), s2);
+    return REAL_MULADD(q->radius * q->radius, REAL_MULADD(w, w, slow_2), s2);
 }

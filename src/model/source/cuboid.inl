@@ -12,8 +12,9 @@
  *
  *     an edge                two corners: l its length, q = r r' + (r.r') = ((r + r')^2 - l^2)/2
  *         log(r + w) - log(r' + w') = log(s^2/(2 q)), s = r + r' + l:     the integral of 1/r along the edge
- *         1/(r (r + w)) - ...       = -l (r + r')/(q r r') = K,           which u multiplies in Phi_xxy, v in
- * Phi_xyy four parallel edges    one logarithm of a ratio, whose distance from 1 follows from differences of s
+ *         1/(r (r + w)) - ...       = -l (r + r')/(q r r') = K,           which u multiplies in Phi_xxy,
+ *                                                                         v in Phi_xyy
+ *     four parallel edges    one logarithm of a ratio, whose distance from 1 follows from differences of s
  *     a face                 its solid angle W, tan(W/2) = N/D of both triangles into which a diagonal parts it
  *                            (van Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125): the angle of
  *                            (D + i N)(D' + i N), where N is u times the area for both

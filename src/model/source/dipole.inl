@@ -4,8 +4,8 @@
  *
  *     B_i   = 3 d_i s/r^5 - m_i/r^3,
  *     G_ij  = 3 (m_i d_j + m_j d_i + delta_ij s)/r^5 - 15 d_i d_j s/r^7,
- *     T_ijk = 3 (m_i delta_jk + ...)/r^5 - 15 (m_i d_j d_k + ... + s (delta_ij d_k + ...))/r^7 + 105 d_i d_j
- * d_k s/r^9,
+ *     T_ijk = 3 (m_i delta_jk + ...)/r^5 - 15 (m_i d_j d_k + ... + s (delta_ij d_k + ...))/r^7
+ *             + 105 d_i d_j d_k s/r^9,
  *
  * where ... are the other two choices of the index that stands alone.
  */

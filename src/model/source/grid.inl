@@ -1,9 +1,10 @@
 /* grid.inl - the source `grid`: a measured field, by B-splines of degree 7, over REAL.
  *
- * The components on the plane of the bead's centre are splines through the samples of a map
- * (model/field_map.h). In a cell a component is the sum of 8 x 8 coefficients, each times a weight of x and one
- * of y.  Degree 7 keeps the fifth derivative of the forces continuous, so that steps of order 8 need not know
- * where the cells end.
+ * The components on one plane, that of the bead's centre, are splines through the samples of a map
+ * (model/field_map.h).  The plane was chosen by the height of a bead on the plate (kinds.plane), and no other
+ * is known: a height z other than the plane's never comes here, because a bead beside a map may not fly. In a
+ * cell a component is the sum of 8 x 8 coefficients, each times a weight of x and one of y.  Degree 7 keeps the
+ * fifth derivative of the forces continuous, so that steps of order 8 need not know where the cells end.
  *
  * The samples have a curl, because each component has its own errors; see local_field.inl.
  */
@@ -144,8 +145,9 @@ static inline __attribute__((always_inline)) FN(grid_sums)
 }
 
 static inline __attribute__((always_inline)) void FN(grid_look)(const FN(grid) * grid, const fst_kinds *kinds,
-                                                                REAL x, REAL y, FN(local_field) * at)
+                                                                REAL x, REAL y, REAL z, FN(local_field) * at)
 {
+    (void)z;
     REAL place[2] = {(x - grid->first[0]) * grid->cells_per_unit[0],
                      (y - grid->first[1]) * grid->cells_per_unit[1]};
     const FN(grid_cell) cell = FN(find_cell)(kinds->plane, place);
@@ -187,11 +189,11 @@ static inline __attribute__((always_inline)) void FN(grid_look)(const FN(grid) *
 SOURCE_FIELD_BY_LOOK(grid)
 
 /* As SOURCE_ALONG_BY_FIELD(), of a field with curl. */
-static inline void FN(grid_along)(const FN(grid) * grid, const fst_kinds *kinds, REAL x, REAL y,
+static inline void FN(grid_along)(const FN(grid) * grid, const fst_kinds *kinds, REAL x, REAL y, REAL z,
                                   const REAL u[3], REAL b[3], REAL gu[3])
 {
     FN(gradient) g;
-    FN(grid_field)(grid, kinds, x, y, b, &g);
+    FN(grid_field)(grid, kinds, x, y, z, b, &g);
     FN(times_gradient)(&g, u, gu);
 }
 

@@ -18,7 +18,6 @@
  * Numbers of one lane that need B and G u alone have a shorter way, lines_along(), below.
  */
 typedef struct FN(lines) {
-    REAL height;   /* h, of the bead's centre over the lines */
     REAL spacing;  /* lambda */
     REAL first;    /* -(lines - 1)/2: the lines lie at Y = lambda (first, first + 1, ...) */
     REAL strength; /* of each, 5/lines */
@@ -28,7 +27,6 @@ static inline FN(lines) FN(make_lines)(const fst_params *params, const fst_group
 {
     (void)params;
     FN(lines) lines;
-    lines.height = REAL_OF(g->h);
     lines.spacing = REAL_OF(g->lambda);
     lines.first = -(R(0.5) * REAL_OF(g->lines - 1));
     lines.strength = R(5.0) / REAL_OF(g->lines);
@@ -287,11 +285,10 @@ static inline __attribute__((always_inline)) void FN(bend_of_lines)(const FN(lin
     t->yyz = yyz[0] - yyz[1];
 }
 
-/* B, G and T at (x, y), at the height of the bead's centre. */
+/* B, G and T at (x, y), at the height h over the lines. */
 static inline __attribute__((always_inline)) void
-FN(lines_look)(const FN(lines) * lines, const fst_kinds *kinds, REAL x, REAL y, FN(local_field) * at)
+FN(lines_look)(const FN(lines) * lines, const fst_kinds *kinds, REAL x, REAL y, REAL h, FN(local_field) * at)
 {
-    const REAL h = lines->height;
     FN(line_ends) ends;
     ends.h = h;
     ends.dx[0] = x - R(1.0);
@@ -329,10 +326,10 @@ static inline void FN(add_line)(FN(line_sums) * sum, ENDS across2, ENDS along, R
     sum->yt = REAL_MULADD(dy, t, sum->yt);
 }
 
-static inline void FN(lines_along)(const FN(lines) * lines, const fst_kinds *kinds, REAL x, REAL y,
+static inline void FN(lines_along)(const FN(lines) * lines, const fst_kinds *kinds, REAL x, REAL y, REAL h,
                                    const REAL u[3], REAL b[3], REAL gu[3])
 {
-    const REAL h = lines->height, f = lines->strength;
+    const REAL f = lines->strength;
     const REAL dx[2] = {x - R(1.0), x + R(1.0)};
     const REAL ux3 = R(3.0) * u[0], uy3 = R(3.0) * u[1], uzh3 = R(3.0) * u[2] * h;
     const ENDS across2[ENDS_GROUPS] = ENDS_OF(dx[0] * dx[0] + h * h, dx[1] * dx[1] + h * h);

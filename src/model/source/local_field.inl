@@ -1,8 +1,9 @@
-/* local_field.inl - what a source tells of its field at one place, over REAL.
+/* local_field.inl - the field of a source at one place, over REAL.
  *
  * Where the bead is, the field has neither curl nor divergence.  So the gradient G_ij = dB_i/dx_j is symmetric
  * and traceless, and G's own derivatives T_ijk = dG_ij/dx_k are so in every pair of indices: 3 + 5 + 7 numbers.
- * The bead's centre stays at one height, and only its moves along x and y are ever asked for.
+ * G has all that a height changes of B.  Of T only what moves along x and y change is ever asked for: tangents
+ * are those of beads that stay at their height.
  *
  * A measured field has some curl, because it is not exact.  Its force keeps the energy all the same if it is
  * the derivative of the energy -u.B by the place, that is G^T u with dB_x/dy and dB_y/dx told apart.  So these
@@ -75,10 +76,10 @@ static inline void FN(gradient_change)(const FN(bend) * t, REAL ex, REAL ey, FN(
  * NAME_look (sources.inl). */
 #define SOURCE_FIELD_BY_LOOK(name)                                                                             \
     static inline __attribute__((always_inline)) void FN(name##_field)(                                        \
-        const FN(name) * source, const fst_kinds *kinds, REAL x, REAL y, REAL b[3], FN(gradient) * g)          \
+        const FN(name) * source, const fst_kinds *kinds, REAL x, REAL y, REAL z, REAL b[3], FN(gradient) * g)  \
     {                                                                                                          \
         FN(local_field) at;                                                                                    \
-        FN(name##_look)(source, kinds, x, y, &at);                                                             \
+        FN(name##_look)(source, kinds, x, y, z, &at);                                                          \
         for (int i = 0; i < 3; ++i)                                                                            \
             b[i] = at.b[i];                                                                                    \
         *g = at.gradient;                                                                                      \
@@ -87,10 +88,10 @@ static inline void FN(gradient_change)(const FN(bend) * t, REAL ex, REAL ey, FN(
 /* For one that has no quicker way to B and G u than B and G: defines NAME_along of its NAME_field. */
 #define SOURCE_ALONG_BY_FIELD(name)                                                                            \
     static inline void FN(name##_along)(const FN(name) * source, const fst_kinds *kinds, REAL x, REAL y,       \
-                                        const REAL u[3], REAL b[3], REAL gu[3])                                \
+                                        REAL z, const REAL u[3], REAL b[3], REAL gu[3])                        \
     {                                                                                                          \
         FN(gradient) g;                                                                                        \
-        FN(name##_field)(source, kinds, x, y, b, &g);                                                          \
+        FN(name##_field)(source, kinds, x, y, z, b, &g);                                                       \
         FN(no_curl)(&g);                                                                                       \
         FN(times_gradient)(&g, u, gu);                                                                         \
     }

@@ -13,7 +13,6 @@
 #include "model/source/dipole.inl"
 
 typedef struct FN(parts) {
-    REAL height; /* of the bead's centre over the magnet's reference plane */
     FN(part) part[FST_PARTS_MAX];
 } FN(parts);
 
@@ -21,7 +20,6 @@ static inline FN(parts) FN(make_parts)(const fst_params *params, const fst_group
 {
     static const FN(parts) nothing;
     FN(parts) parts = nothing;
-    parts.height = REAL_OF(g->h);
     for (int i = 0; i < params->magnet_part_count; ++i)
         parts.part[i] = FN(make_part)(&params->magnet_parts[i], g);
     return parts;
@@ -79,18 +77,19 @@ static inline void FN(add_gradient)(FN(gradient) * sum, const FN(gradient) * g)
 
 /* The place as part i sees it. */
 static inline void FN(place_in_part)(const FN(parts) * parts, const fst_kinds *kinds, int i, REAL x, REAL y,
-                                     REAL own[3])
+                                     REAL z, REAL own[3])
 {
     const FN(part) *part = &parts->part[i];
-    const REAL from[3] = {x - part->centre[0], y - part->centre[1], parts->height - part->centre[2]};
+    const REAL from[3] = {x - part->centre[0], y - part->centre[1], z - part->centre[2]};
     if (kinds->part_turned[i])
         FN(into_part)(part, from, own);
     else
         memcpy(own, from, sizeof from);
 }
 
-static inline __attribute__((always_inline)) void
-FN(parts_field)(const FN(parts) * parts, const fst_kinds *kinds, REAL x, REAL y, REAL b[3], FN(gradient) * sum)
+static inline __attribute__((always_inline)) void FN(parts_field)(const FN(parts) * parts,
+                                                                  const fst_kinds *kinds, REAL x, REAL y,
+                                                                  REAL z, REAL b[3], FN(gradient) * sum)
 {
     const REAL zero = R(0.0);
     const FN(gradient) flat = {zero, zero, zero, zero, zero, zero};
@@ -99,7 +98,7 @@ FN(parts_field)(const FN(parts) * parts, const fst_kinds *kinds, REAL x, REAL y,
     for (int i = 0; i < kinds->pieces; ++i) {
         REAL own[3], of[3];
         FN(gradient) g;
-        FN(place_in_part)(parts, kinds, i, x, y, own);
+        FN(place_in_part)(parts, kinds, i, x, y, z, own);
         FN(part_field)(&parts->part[i], kinds->part[i], own, of, &g);
         if (kinds->part_turned[i])
             FN(turn_field)(&parts->part[i], of, &g);
@@ -110,7 +109,7 @@ FN(parts_field)(const FN(parts) * parts, const fst_kinds *kinds, REAL x, REAL y,
 }
 
 static inline __attribute__((always_inline)) void
-FN(parts_look)(const FN(parts) * parts, const fst_kinds *kinds, REAL x, REAL y, FN(local_field) * sum)
+FN(parts_look)(const FN(parts) * parts, const fst_kinds *kinds, REAL x, REAL y, REAL z, FN(local_field) * sum)
 {
     const REAL zero = R(0.0), one = R(1.0);
     const FN(gradient) flat = {zero, zero, zero, zero, zero, zero};
@@ -121,7 +120,7 @@ FN(parts_look)(const FN(parts) * parts, const fst_kinds *kinds, REAL x, REAL y, 
     for (int i = 0; i < kinds->pieces; ++i) {
         REAL own[3];
         FN(local_field) at;
-        FN(place_in_part)(parts, kinds, i, x, y, own);
+        FN(place_in_part)(parts, kinds, i, x, y, z, own);
         FN(part_look)(&parts->part[i], kinds->part[i], own, &at);
         if (kinds->part_turned[i]) {
             FN(turn_field)(&parts->part[i], at.b, &at.gradient);

@@ -1,12 +1,11 @@
 /* sources.inl - what makes the field: the one in use of the sources of festoon/physics.def, over REAL.
  *
  * A source NAME is a file NAME.inl, included here, with a row in physics.def.  It supplies
- */
-/* clang-format off */
-/*
- *     NAME          a struct of its numbers, REALs alone (with lanes each lane has its own);
+ *
+ *     NAME          a struct of its numbers, REALs alone (with lanes each lane has its own), which hold no height:
+ *                   z is asked for with x and y, in l over the magnet's reference plane;
  *     make_NAME()   these numbers, made of the parameters and the scaled groups;
- *     NAME_look()   B, G and T at a place (local_field.inl), by + - * / and square roots; always inlined, so
+ *     NAME_look()   B, G and T at (x, y, z) (local_field.inl), by + - * / and square roots; always inlined, so
  *                   that what a caller does not use is not computed;
  *     NAME_field()  B and G;
  *     NAME_along()  B and G u.
@@ -14,9 +13,7 @@
  * SOURCE_ALONG_BY_LOOK(NAME) makes the last two of NAME_look(), for a source without a quicker way.
  *
  * A field that has no curl needs not say so: what it has twice is filled in here.
- */
-/* clang-format on */
-/*
+ *
  * Integers that it needs, as a number of pieces, are in fst_kinds (model/kinds.h); lanes of a batch share them.
  * All else follows from these: the field, the equations of motion and their tangents, orbits, lanes.
  */
@@ -56,13 +53,14 @@ static inline FN(source_numbers)
     return numbers;
 }
 
-/* B, G and T at (x, y), at the height of the bead's centre. */
-static inline __attribute__((always_inline)) void
-FN(source_look)(const FN(source_numbers) * source, const fst_kinds *kinds, REAL x, REAL y, FN(local_field) * at)
+/* B, G and T at (x, y), at the height z over the magnet's reference plane. */
+static inline __attribute__((always_inline)) void FN(source_look)(const FN(source_numbers) * source,
+                                                                  const fst_kinds *kinds, REAL x, REAL y,
+                                                                  REAL z, FN(local_field) * at)
 {
 #define LOOK(NAME, name, doc)                                                                                  \
     if (kinds->source == FST_MAGNET_##NAME) {                                                                  \
-        FN(name##_look)(&source->name, kinds, x, y, at);                                                       \
+        FN(name##_look)(&source->name, kinds, x, y, z, at);                                                    \
         if (FST_MAGNET_##NAME != FST_MAGNET_GRID)                                                              \
             FN(no_curl_anywhere)(at);                                                                          \
         return;                                                                                                \
@@ -75,11 +73,11 @@ FN(source_look)(const FN(source_numbers) * source, const fst_kinds *kinds, REAL 
 /* B and G there. */
 static inline __attribute__((always_inline)) void FN(source_field)(const FN(source_numbers) * source,
                                                                    const fst_kinds *kinds, REAL x, REAL y,
-                                                                   REAL b[3], FN(gradient) * g)
+                                                                   REAL z, REAL b[3], FN(gradient) * g)
 {
 #define FIELD(NAME, name, doc)                                                                                 \
     if (kinds->source == FST_MAGNET_##NAME) {                                                                  \
-        FN(name##_field)(&source->name, kinds, x, y, b, g);                                                    \
+        FN(name##_field)(&source->name, kinds, x, y, z, b, g);                                                 \
         if (FST_MAGNET_##NAME != FST_MAGNET_GRID)                                                              \
             FN(no_curl)(g);                                                                                    \
         return;                                                                                                \
@@ -91,11 +89,11 @@ static inline __attribute__((always_inline)) void FN(source_field)(const FN(sour
 
 /* B and G u there. */
 static inline void FN(source_along)(const FN(source_numbers) * source, const fst_kinds *kinds, REAL x, REAL y,
-                                    const REAL u[3], REAL b[3], REAL gu[3])
+                                    REAL z, const REAL u[3], REAL b[3], REAL gu[3])
 {
 #define ALONG(NAME, name, doc)                                                                                 \
     if (kinds->source == FST_MAGNET_##NAME) {                                                                  \
-        FN(name##_along)(&source->name, kinds, x, y, u, b, gu);                                                \
+        FN(name##_along)(&source->name, kinds, x, y, z, u, b, gu);                                             \
         return;                                                                                                \
     }
     FST_SOURCES(ALONG)

@@ -1,0 +1,60 @@
+"""Tables that are in memory already, for the readers of files: data frames, dictionaries and arrays."""
+
+import contextlib
+import os
+import tempfile
+from typing import Any, Dict, Iterator, Optional, Sequence
+
+import numpy as np
+
+from ._errors import BadInput, FestoonError
+
+
+def is_path(data: Any) -> bool:
+    """Whether it is the name of a file."""
+    return isinstance(data, (str, bytes, os.PathLike))
+
+
+def _columns(data: Any, plain: Sequence[str], where: str) -> Dict[str, Any]:
+    """Columns by their names; an array without names has those of `plain`."""
+    names = getattr(data, "columns", None)
+    if names is None:
+        names = data.keys() if hasattr(data, "keys") else getattr(getattr(data, "dtype", None), "names", None)
+    if names is not None:
+        return {str(name): np.asarray(data[name]) for name in names}
+    rows = np.asarray(data)
+    if rows.ndim != 2 or rows.shape[1] != len(plain) or rows.dtype.kind not in "iuf":
+        what = f"numbers of the shape (rows, {len(plain)}): {', '.join(plain)}" if plain else "names of columns"
+        raise BadInput(where, f"it must be a file, or a data frame, a dictionary or an array with {what}")
+    return {name: rows[:, i] for i, name in enumerate(plain)}
+
+
+def _cell(value: Any) -> str:
+    if value is None or (isinstance(value, float) and np.isnan(value)):
+        return ""
+    text = repr(float(value)) if isinstance(value, float) else str(value)
+    if any(mark in text for mark in ',"\n\r'):
+        return '"' + text.replace('"', '""') + '"'
+    return text
+
+
+@contextlib.contextmanager
+def as_file(data: Any, plain: Sequence[str], where: str, unit: Optional[str] = None) -> Iterator[str]:
+    """A CSV file of the data, with every digit, as long as it is read; what is wrong in it lies in `where`.
+
+    Columns t, x and y have the units s and `unit`, where their names have none.
+    """
+    units = {"t": "s", "x": unit, "y": unit} if unit else {}
+    columns = _columns(data, plain, where)
+    if len({len(values) for values in columns.values()}) > 1 or any(np.ndim(v) != 1 for v in columns.values()):
+        raise BadInput(where, "its columns must be of one length, and one number to a row")
+    heads = [f"{name} [{units[name]}]" if name in units else name for name in columns]
+    with tempfile.TemporaryDirectory(prefix="festoon-", ignore_cleanup_errors=True) as folder:
+        path = os.path.join(folder, "data.csv")
+        with open(path, "w", encoding="utf-8", newline="\n") as file:
+            for row in [heads, *zip(*(values.tolist() for values in columns.values()))]:
+                file.write(",".join(map(_cell, row)) + "\n")
+        try:
+            yield path
+        except FestoonError as error:
+            raise type(error)(error.where.replace(path, where), error.sentence.replace(path, where)) from None

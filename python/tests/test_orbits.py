@@ -1,0 +1,54 @@
+"""Orbits, branches, locked states and exponents."""
+
+import gc
+import math
+import pickle
+
+import numpy as np
+import pytest
+
+import festoon as fs
+
+
+def test_orbit():
+    orbit = fs.Bead().orbit()
+    assert orbit.stable and orbit.symmetry == "S1" and orbit.turns == -1 and orbit.residual < 1e-10
+    assert orbit.multipliers.shape == (8,) and np.all(abs(orbit.multipliers) < 1)
+    leading = np.max(abs(orbit.multipliers))
+    assert orbit.relaxation_time == pytest.approx(-orbit.period / math.log(leading))
+    assert pickle.loads(pickle.dumps(orbit)).to_dict() == orbit.to_dict()
+    assert orbit.mean_r == pytest.approx(fs.Bead().run().mean_r, rel=1e-9)
+
+
+def test_branch(tmp_path):
+    branch = fs.Bead().branch(omega=(0.24, 0.28), kind="counter")
+    assert [special.type for special in branch.specials] == ["pitchfork"]
+    assert branch.specials[0].value == pytest.approx(0.26885, abs=1e-4) and branch.complete
+    assert branch.mean_r.shape == branch.value.shape == (len(branch),) and set(branch.stable) == {0, 1}
+    assert np.all((branch.value >= 0.24 - 1e-12) & (branch.value <= 0.28 + 1e-12))
+    assert sum(len(points) for points in branch) == len(branch)
+    branch.save(tmp_path / "branch.json")
+    read = fs.read(tmp_path / "branch.json")
+    assert np.array_equal(read.mean_r, branch.mean_r) and read.key == "drive.omega"
+    with pytest.raises(fs.BadInput, match="did you mean counter"):
+        fs.Bead().branch(omega=(0.2, 0.3), kind="conter")
+
+
+def test_points_of_a_branch_outlive_it():
+    points = fs.Bead().branch(omega=(0.24, 0.25)).points
+    gc.collect()
+    assert np.all(points["omega"] > 0.2) and np.all(points["omega"] < 0.3)
+
+
+def test_locked_states():
+    states = fs.Bead(frequency=3).locked()
+    assert len(states) >= 2 and states[0].stable and not states[-1].stable
+    first = states[0]
+    assert first.eigenvalues.shape == (9,) and np.max(first.eigenvalues.real) < 0
+    assert np.linalg.norm(first.n) == pytest.approx(1.0) and first.r == pytest.approx(np.hypot(*first.state[:2]))
+
+
+def test_lyapunov():
+    spectrum = fs.Bead(run__periods=120, run__discard=60).lyapunov()
+    assert spectrum.exponents.shape == (9,) and np.all(np.diff(spectrum.exponents) <= 0)
+    assert spectrum.exponents.sum() == pytest.approx(spectrum.divergence, abs=1e-3)

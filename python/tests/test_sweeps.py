@@ -1,0 +1,181 @@
+"""Sweeps: their points, files, refinement, and tables for other libraries."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+import festoon as fs
+
+
+def test_sweep_has_a_row_for_each_point():
+    base = fs.Bead(run__periods=20)
+    s = fs.sweep(base, frequency=np.linspace(9, 12, 3), kappa=[1.2, 1.5], model__dynamics=["rigid", "farago2020"])
+    assert s.shape == s.mean_r.shape == (3, 2, 2) and s.dims == ("frequency", "kappa", "model__dynamics")
+    assert s.complete and s.done.all() and not s.failed.any()
+    assert s.parameter("frequency")[2, 1, 0] == 12 and s.parameter("model__dynamics")[0, 0, 1] == "farago2020"
+    assert s.bead(2, 0, 1) == base.replace(frequency=12, kappa=1.2, model__dynamics="farago2020", run__discard=10)
+    one = s[1, 1, 0]
+    assert isinstance(one, fs.Run) and one.mean_r == s.mean_r[1, 1, 0]
+    part = s[:, 1]
+    assert part.shape == (3, 2) and part.dims == ("frequency", "model__dynamics")
+    assert np.array_equal(part.mean_r, s.mean_r[:, 1])
+    assert s[..., 0].dims == ("frequency", "kappa") and np.array_equal(s[..., 0].mean_r, s.mean_r[..., 0])
+    assert s[..., :, :, :].dims == s.dims
+    assert np.array_equal(s.si.mean_r, s.mean_r * 0.023)
+    assert np.shares_memory(s.mean_r, s._rows)
+
+
+def test_a_failed_run_is_a_row():
+    bead = fs.Bead(run__periods=5)
+    eps = bead.groups.eps
+    s = fs.sweep(bead, start__r=[0.95, eps, 0.9])
+    assert s.failed.tolist() == [False, True, False]
+    failed = s[s.failed]
+    assert failed.shape == (1,) and isinstance(failed.errors[0], fs.BadInput) and "rolling" in str(failed.errors[0])
+    assert math.isnan(s.mean_r[1]) and s.regime[1] == "" and s.errors[0] is None
+    with pytest.raises(fs.BadInput):
+        s[1]
+
+
+def test_sweep_for_other_libraries():
+    pytest.importorskip("pandas")
+    pytest.importorskip("xarray")
+    s = fs.sweep(fs.Bead(run__periods=10), frequency=[9, 10, 11], kappa=[1.2, 1.5])
+    data = s.to_xarray()
+    assert data.mean_r.dims == ("frequency", "kappa") and data.mean_r.attrs["units"] == "l"
+    assert data.frequency.attrs["units"] == "Hz" and np.array_equal(data.mean_r, s.mean_r)
+    frame = s.to_pandas()
+    assert len(frame) == 6 and frame.kappa.tolist() == [1.2, 1.5] * 3
+    assert np.array_equal(frame.mean_r, s.mean_r.ravel())
+    # In laboratory units, each with its name; and what was computed, by which version.
+    for lab, about in ((s.to_xarray("lab"), s.to_xarray("lab").attrs), (s.to_pandas("lab"), s.to_pandas("lab").attrs)):
+        for name in fs._tables.RESULTS:
+            if name not in ("omega", "frequency_hz"):
+                values = np.asarray(lab[name]).reshape(s.shape)
+                assert np.array_equal(values, getattr(s.lab, name), equal_nan=True), name
+                unit = lab[name].attrs["units"] if hasattr(lab, "data_vars") else about["units"][name]
+                assert unit == s.lab.unit(name), name
+        assert fs.Bead(about["scene"]) == s.bead(0, 0).replace(frequency=fs.UNSET, kappa=fs.UNSET)
+        assert about["version"] == fs.__version__ and about["axes"] == "drive.frequency=9,10,11; model.kappa=1.2,1.5"
+    assert s.to_pandas().attrs["units"]["kappa"] == "1" and s.to_pandas().attrs["units"]["mean_r"] == "l"
+    with pytest.raises(fs.BadInput, match="unit of the scaled numbers"):
+        fs.sweep(fs.Bead(run__periods=2), gamma=[300, 310]).to_pandas("lab")
+
+
+def test_sweep_with_random_and_logarithmic_axes():
+    bead = fs.Bead(run__periods=2)
+    s = fs.sweep(bead, kappa="1:2:random:5", gamma="200:400:random:5", seed=7)
+    assert s.shape == (5,) and s.dims == ("draw",) and len(set(s.parameter("kappa"))) == 5
+    with pytest.raises(fs.BadInput, match="unit"):
+        s.si
+    s = fs.sweep(bead, kappa="1:4:3:log")
+    assert s.parameter("kappa").tolist() == pytest.approx([1, 2, 4])
+    with pytest.raises(fs.BadInput, match="nearest"):
+        fs.sweep(bead, freqency=[1, 2])
+
+
+def test_sweep_in_a_file_goes_on(tmp_path):
+    bead, file = fs.Bead(run__periods=5), tmp_path / "sweep.db"
+    first = fs.sweep(bead, frequency=[9, 10], file=file)
+    before = file.read_bytes()
+    again = fs.sweep(bead, frequency=[9, 10], file=file)
+    assert np.array_equal(first.mean_r, again.mean_r) and len(before) > 0
+    with pytest.raises(fs.BadInput):
+        fs.sweep(bead, frequency=[9, 11], file=file)
+    fs.export(file, tmp_path / "rows.json")
+    assert [row["mean_r"] for row in json.loads((tmp_path / "rows.json").read_text())] == first.mean_r.tolist()
+    fs.export(file, tmp_path / "rows.csv", ["mean_r"], units="lab")
+    assert (tmp_path / "rows.csv").read_text().startswith("drive.frequency [Hz],mean_r [mm]")
+    carried = fs.sweep(bead, frequency=[9, 10], carry="up")
+    assert carried.mean_r[0] == first.mean_r[0] and carried.mean_r[1] != first.mean_r[1]
+
+
+def test_a_sweep_read_back_is_the_sweep(tmp_path):
+    """In every attribute, for runs that fail, stop early or turn, over a number and a choice."""
+    bead, file = fs.Bead(run__periods=8, plate__radius="30 mm"), tmp_path / "sweep.db"
+    s = fs.sweep(bead, start__r=[0.9, bead.groups.eps, 1.25], friction__law=["viscous", "coulomb"])
+    fs.sweep(bead, start__r=[0.9, bead.groups.eps, 1.25], friction__law=["viscous", "coulomb"], file=file)
+    again = fs.read(file)
+    names = {name for name in dir(s) if not name.startswith("_") and not callable(getattr(s, name))}
+    assert {"regime", "symmetry", "done", "failed", "mean_r", "start__r"} < names | {"start__r"} and len(names) > 60
+
+    def plain(value):
+        value = np.asarray(value)
+        # A database keeps of an error what happened, not the key beside it.
+        return [(type(item), getattr(item, "sentence", "")) for item in value.ravel()] if value.dtype == object else value
+
+    for name in sorted(names - {"axes", "si", "lab"}) + ["start__r", "friction__law"]:
+        one, other = plain(getattr(s, name)), plain(getattr(again, name))
+        if isinstance(one, list):
+            assert one == other
+        else:
+            np.testing.assert_array_equal(one, other, err_msg=name)
+    for one, other in zip(s.axes, again.axes):
+        assert one.key == other.key and np.array_equal(one.values, other.values)
+    for units in ("si", "lab"):
+        for name in fs._tables.RESULTS:
+            np.testing.assert_array_equal(getattr(getattr(s, units), name), getattr(getattr(again, units), name))
+    for place in zip(*np.nonzero(s.done & ~s.failed)):
+        assert s.bead(*place) == again.bead(*place)
+        assert s[place].to_dict() == again[place].to_dict() and s[place].reason == again[place].reason
+
+
+def test_a_refined_sweep(bead):
+    bead = bead.replace(plate__radius="6 cm", run__periods=4, run__discard=2)
+    axes = {"start__r": "0.3:2.9:33", "kappa": "0.2:2:22"}
+    whole = fs.sweep(bead, **axes)
+    part = fs.sweep(bead, **axes, refine=3)
+    assert part.shape == whole.shape and not part.complete and whole.computed.all()
+    assert 0.2 < part.computed.mean() < 0.7
+    assert np.array_equal(part.mean_r[part.computed], whole.mean_r[part.computed], equal_nan=True)
+    assert np.isnan(part.mean_r[~part.computed]).all()
+    # Where runs around a point agree, its regime is known, as the whole sweep has it but for missed islands.
+    names = np.array([*fs.sweeps.REGIMES, ""])
+    between = part._between.reshape(part.shape)
+    known = np.isfinite(between)
+    assert not (known & part.computed).any() and known.mean() > 0.3
+    assert (names[between[known].astype(int)] != whole.regime[known]).sum() <= 15
+    assert part.refined and not whole.refined and f"{(~part.computed).sum()} left out (refined)" in repr(part)
+    assert set(part.regime[~part.computed]) == {""} and part[part.computed].complete
+    with pytest.raises(fs.BadInput, match="was not computed, because the sweep was refined"):
+        part[tuple(np.argwhere(~part.computed)[0])]
+
+
+def test_how_a_sweep_is_refined(bead):
+    bead = bead.replace(run__periods=4, run__discard=2)
+    axes = {"kappa": "0.3:2:17", "frequency": ["9 Hz", "12 Hz"]}
+    one = fs.sweep(bead, **axes, refine=2, refine_by="mean_r", refine_step=0.01)
+    other = fs.sweep(bead, **axes, refine=2, refine_by="mean_r:0.01")
+    assert np.array_equal(one.mean_r, other.mean_r, equal_nan=True) and one.computed.sum() > 10
+    with pytest.warns(UserWarning, match="impacts_per_return has no value in any run, so nothing was refined"):
+        assert fs.sweep(bead, **axes, refine=2, refine_by="impacts_per_return:1").computed.sum() == 10
+    for wrong, words in (
+        ({"refine_by": "mean_r"}, "by how much"),
+        ({"refine_by": "mean_r:x"}, '"x" in "mean_r:x" must be a number'),
+        ({"refine_by": "mean_r:0.1", "refine_step": 0.1}, "give it once"),
+        ({"refine_by": "reason"}, "reason is a text"),
+        ({"refine": 0, "refine_by": "mean_r:0.1"}, "belongs to a refined sweep"),
+        ({"refine": 4}, "from 1 to 3"),
+        ({"kappa": np.linspace(0.3, 2, 17)}, "nothing to refine"),
+        ({"carry": "up"}, "carried sweep cannot be refined"),
+    ):
+        with pytest.raises(fs.BadInput, match=words):
+            fs.sweep(bead, **{**axes, "refine": 2, **wrong})
+
+
+def test_progress_is_told(bead):
+    told = []
+    fs.sweep(bead, frequency="9:12:8", progress=lambda fraction, what: told.append(fraction))
+    assert told and told == sorted(told) and told[-1] == 1.0
+
+
+def test_an_exception_of_the_progress_function_ends_the_call(bead):
+    def refuse(fraction, what):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        bead.run(periods=4000, progress=refuse)
+    with pytest.raises(RuntimeError, match="enough"):
+        fs.sweep(bead, frequency="9:12:80", progress=refuse)

@@ -1,0 +1,223 @@
+/* learn.c - the bead's contrast and size, from frames at random times.
+ *
+ * What moves is one spot in nearly every sample, all of about the same area.  It is darker or brighter than the
+ * background: that sign is taken which most of the difference has.
+ */
+#include "follow/learn.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/order.h"
+#include "base/watch.h"
+
+#define LEAST_CONTRAST 8.0 /* gray levels: less is no bead that can be followed */
+#define OF_NOISE 6.0       /* a bead's difference, in deviations of a pixel */
+#define OF_CONTRAST 0.15   /* where a spot ends, in parts of the contrast */
+#define SECOND 0.5         /* a second spot of this part of the first one's area is another bead */
+#define SHARP 0.85         /* of the samples are blurred more: a blurred bead has less contrast */
+#define SEEN 0.5           /* part of the samples in which a bead must be seen */
+#define TWICE 0.3          /* part of the samples in which two of them are too many */
+
+/* The value below which the given part of the values lies; 0 of none. */
+static double quantile(double *values, int count, double part)
+{
+    qsort(values, (size_t)count, sizeof *values, fst_ascending);
+    return count ? values[(int)(part * (count - 1) + 0.5)] : 0.0;
+}
+
+static const unsigned char *sample(const follow_blobs *blobs, int k)
+{
+    const follow_still *s = blobs->still;
+    return s->samples + (size_t)k * (size_t)s->width * (size_t)s->height;
+}
+
+static const float *gains_of(const follow_blobs *blobs, int k)
+{
+    return blobs->still->gains + (size_t)k * (size_t)blobs->still->height;
+}
+
+/* The spot with the greatest sum; NULL: there is none. */
+static const follow_box *greatest(const follow_blobs *blobs)
+{
+    const follow_box *best = NULL;
+    for (int i = 0; i < blobs->count; ++i)
+        if (!best || blobs->boxes[i].sum > best->sum)
+            best = &blobs->boxes[i];
+    return best;
+}
+
+/* Whether all eight pixels around one of a spot belong to it too, `depth` pixels deep. */
+static int is_inside(const follow_blobs *b, const follow_box *box, int column, int row, int depth)
+{
+    for (int y = row - depth; y <= row + depth; ++y)
+        for (int x = column - depth; x <= column + depth; ++x)
+            if (x < box->left || x > box->right || y < box->top || y > box->bottom ||
+                b->mask[y * b->still->width + x] != box->label)
+                return 0;
+    return 1;
+}
+
+/* The contrast of a spot: of its pixels well inside, the lower third: highlights and the lit side of a ball are
+ * the lighter part of it, and count as covered then. */
+static double contrast_of(const follow_blobs *b, const unsigned char *frame, const float *gains, double sign,
+                          const follow_box *box)
+{
+    enum { MOST = 4096 };
+    double values[MOST];
+    int count = 0;
+    for (int depth = 2; depth >= 0 && count < 5; --depth) {
+        count = 0;
+        for (int row = box->top; row <= box->bottom && count < MOST; ++row)
+            for (int column = box->left; column <= box->right && count < MOST; ++column) {
+                const size_t at = (size_t)row * (size_t)b->still->width + (size_t)column;
+                const double behind = (double)(gains[row] * b->still->level[at]);
+                if (is_inside(b, box, column, row, depth))
+                    values[count++] =
+                        sign > 0.0 ? (behind - frame[at]) / fmax(behind, 1.0) : frame[at] - behind;
+            }
+    }
+    return quantile(values, count, 0.33);
+}
+
+/* Which sign the bead has: by the sums of the greatest spots of both. */
+static fst_status find_sign(follow_blobs *b, double threshold, const fst_progress *progress, double *sign,
+                            int *crowded, fst_error *error)
+{
+    double sums[2] = {0.0, 0.0};
+    *crowded = 0;
+    for (int k = 0; k < b->still->count; ++k) {
+        const float *gains = gains_of(b, k);
+        for (int bright = 0; bright < 2; ++bright) {
+            follow_blobs_find(b, sample(b, k), gains, bright ? -1.0 : 1.0, threshold);
+            const follow_box *box = greatest(b);
+            sums[bright] += box ? box->sum : 0.0;
+            *crowded += b->count > 30;
+        }
+        const fst_status told = fst_tell(progress, 0.5 * k / b->still->count, NULL, error);
+        if (told != FST_OK)
+            return told;
+    }
+    *sign = sums[1] > sums[0] ? -1.0 : 1.0;
+    return FST_OK;
+}
+
+/* What the samples say of the bead. */
+typedef struct learnt {
+    double contrasts[FOLLOW_SAMPLES], areas[FOLLOW_SAMPLES];
+    double widths[FOLLOW_SAMPLES], blurs[FOLLOW_SAMPLES]; /* pixels; and how much longer than wide it looks */
+    double behind; /* level of the background behind it, summed over the samples */
+    int seen, twice;
+} learnt;
+
+static fst_status measure_size(follow_blobs *b, int k, const follow_look *look, learnt *lesson,
+                               fst_error *error)
+{
+    const float *gains = gains_of(b, k);
+    double best = 0.0, second = 0.0, width = 0.0, blur = 0.0;
+    follow_blobs_find(b, sample(b, k), gains, look->sign, look->threshold);
+    for (int i = 0; i < b->count; ++i) {
+        follow_cover cover;
+        const fst_status status = follow_blobs_cover(b, sample(b, k), gains, look, &b->boxes[i], &cover, error);
+        if (status != FST_OK)
+            return status;
+        if (cover.area > best) {
+            second = best;
+            best = cover.area;
+            width = fmin(cover.width, cover.narrow); /* motion widens the first, soft outlines the second */
+            blur = cover.wide / fmax(cover.narrow, 0.1);
+        } else if (cover.area > second) {
+            second = cover.area;
+        }
+    }
+    if (!(best > 0.0))
+        return FST_OK;
+    lesson->areas[lesson->seen] = best;
+    lesson->widths[lesson->seen] = width;
+    lesson->blurs[lesson->seen++] = blur;
+    lesson->twice += second > SECOND * best;
+    return FST_OK;
+}
+
+static void measure_contrast(follow_blobs *b, int k, double sign, double threshold, learnt *lesson)
+{
+    const float *gains = gains_of(b, k);
+    follow_blobs_find(b, sample(b, k), gains, sign, threshold);
+    const follow_box *box = greatest(b);
+    if (!box)
+        return;
+    const int row = (box->top + box->bottom) / 2, middle = row * b->still->width + (box->left + box->right) / 2;
+    lesson->behind += (double)(gains[row] * b->still->level[middle]);
+    lesson->contrasts[lesson->seen++] = contrast_of(b, sample(b, k), gains, sign, box);
+}
+
+static fst_status no_bead(const char *path, const follow_blobs *b, int seen, double threshold, int crowded,
+                          fst_error *error)
+{
+    if (crowded > b->still->count / 2)
+        return fst_fail(error, FST_BAD_INPUT, path,
+                        "the picture changes in many places at once: the camera must not move while it films, "
+                        "and the light must stay");
+    return fst_fail(
+        error, FST_BAD_INPUT, path,
+        "no bead was found: in %d of %d frames looked at, something stands out from what stays still by %.0f "
+        "gray levels of 255 or more; a bead that rests, or hardly moves, cannot be told from the plate",
+        seen, b->still->count, threshold);
+}
+
+static fst_status two_beads(const char *path, int twice, int count, fst_error *error)
+{
+    return fst_fail(error, FST_BAD_INPUT, path,
+                    "two things of about the same size move in %d of %d frames looked at: one bead can be "
+                    "followed; cut the other, or its reflection, out of the picture",
+                    twice, count);
+}
+
+/* The width of the bead, by those samples in which it is blurred least.  Compression and optics make its
+ * outline soft, which does not move the contour of half cover. */
+static double width_of(const learnt *lesson)
+{
+    double sorted[FOLLOW_SAMPLES], widths[FOLLOW_SAMPLES];
+    int count = 0;
+    memcpy(sorted, lesson->blurs, sizeof sorted);
+    const double most = quantile(sorted, lesson->seen, 0.4);
+    for (int i = 0; i < lesson->seen; ++i)
+        if (lesson->blurs[i] <= most)
+            widths[count++] = lesson->widths[i];
+    return quantile(widths, count, 0.5);
+}
+
+fst_status follow_learn(follow_blobs *blobs, const char *path, const fst_progress *progress, follow_look *look,
+                        fst_error *error)
+{
+    const int count = blobs->still->count;
+    const double least = fmax(OF_NOISE * blobs->still->noise, LEAST_CONTRAST);
+    learnt lesson = {.seen = 0};
+    int crowded;
+    *look = (follow_look){.threshold = least};
+    fst_status status = find_sign(blobs, least, progress, &look->sign, &crowded, error);
+    for (int k = 0; k < count && status == FST_OK; ++k)
+        measure_contrast(blobs, k, look->sign, least, &lesson);
+    if (status == FST_OK && lesson.seen < SEEN * count)
+        return no_bead(path, blobs, lesson.seen, least, crowded, error);
+    look->contrast = quantile(lesson.contrasts, lesson.seen, SHARP);
+    const double behind = lesson.seen ? lesson.behind / lesson.seen : 0.0;
+    look->threshold = fmax(least, OF_CONTRAST * look->contrast * (look->sign > 0.0 ? behind : 1.0));
+    lesson.seen = 0;
+    for (int k = 0; k < count && status == FST_OK; ++k) {
+        status = measure_size(blobs, k, look, &lesson, error);
+        if (status == FST_OK)
+            status = fst_tell(progress, 0.5 + 0.5 * k / count, NULL, error);
+    }
+    if (status != FST_OK)
+        return status;
+    if (lesson.seen < SEEN * count)
+        return no_bead(path, blobs, lesson.seen, look->threshold, crowded, error);
+    if (lesson.twice > TWICE * count)
+        return two_beads(path, lesson.twice, count, error);
+    look->area = quantile(lesson.areas, lesson.seen, 0.5);
+    look->diameter = width_of(&lesson);
+    return FST_OK;
+}

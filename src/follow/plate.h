@@ -1,0 +1,20 @@
+/* plate.h - the plane of a plate whose edge is seen, perspective included. */
+#ifndef FST_FOLLOW_PLATE_H
+#define FST_FOLLOW_PLATE_H
+
+#include "follow/plane.h"
+
+/* Places of the bead and how wide it looked there. */
+typedef struct follow_sizes {
+    double count, sum[3][3], right[3]; /* of the normal equations of width = p + q (column, row) */
+    double middle[2];                  /* columns and rows count from here */
+} follow_sizes;
+
+void follow_sizes_add(follow_sizes *sizes, double column, double row, double width);
+
+/* The horizon for follow_plane_of_circle(): how the bead's width changes over the picture, along the direction
+ * in which the edge's ellipse is short.  A camera without tilt has none. */
+void follow_plate_horizon(const follow_sizes *sizes, const follow_ellipse *rim, int width, int height,
+                          double horizon[2]);
+
+#endif

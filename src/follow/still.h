@@ -1,0 +1,33 @@
+/* still.h - the picture without the bead: what stays while the bead goes round.
+ *
+ * Each pixel's level is the median over some 41 frames at random times.  Regular times would meet a bead that
+ * circles regularly in the same places again and again.  The choice of times depends on the film's length
+ * alone, so the same film gives the same track.
+ */
+#ifndef FST_FOLLOW_STILL_H
+#define FST_FOLLOW_STILL_H
+
+#include "follow/source.h"
+
+enum { FOLLOW_SAMPLES = 41, FOLLOW_LEAST_FRAMES = 5 };
+
+typedef struct follow_still {
+    int width, height;
+    float *level;           /* gray levels */
+    double noise;           /* deviation of a pixel where nothing moves, in gray levels */
+    unsigned char *samples; /* the frames it was made of, one after another */
+    float *gains;           /* of each row of each sample */
+    int count;
+} follow_still;
+
+/* Read the samples and make the picture of them.  Free with follow_still_free(), after a failure too. */
+fst_status follow_still_make(follow_still *still, const follow_source *source, const fst_progress *progress,
+                             fst_error *error);
+void follow_still_drop_samples(follow_still *still);
+void follow_still_free(follow_still *still);
+
+/* How much brighter each row of a frame is than the still picture: factors, which lamps and the camera's
+ * exposure change from frame to frame, and a rolling shutter under lamps that flicker from row to row. */
+void follow_still_gains(const follow_still *still, const unsigned char *frame, float *gains);
+
+#endif

@@ -1,0 +1,415 @@
+/* geometry.c - centre and tilt of a path, how fast the bead goes round, and the festoons.
+ *
+ * A camera that looks aslant shrinks the plate along one direction, and nobody knows where the axis of the
+ * magnet is in the picture.  Both show in r over alpha: a wrong centre adds cos(alpha) and sin(alpha), a tilt r
+ * cos(2 alpha) and r sin(2 alpha).  The festoons do neither: they oscillate with time, with f_r and its
+ * multiples, whatever alpha is. So one regression tells them apart:
+ *
+ *   r = r0 + sum over k of (a_k cos + b_k sin)(2 pi k f0 t)
+ *          + d_x cos(alpha) + d_y sin(alpha) + r u cos(2 alpha) + r v sin(2 alpha) + (change of f0)
+ *
+ * and Gauss-Newton's method moves centre and tilt until d, u and v vanish.  The ellipse of second moments would
+ * not do: festoons have second moments too.
+ *
+ * r0 is then the mean over time of r itself, whatever frames are lost and wherever the film begins and ends.
+ */
+#include "measure/work.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/constants.h"
+#include "base/dot.h"
+#include "base/error.h"
+#include "base/watch.h"
+#include "measure/spectrum.h"
+
+enum { LEAST_ROWS = 16, MOST_ROUNDS = 60 };
+
+/* A line is small beside another one where it has no more than this part of its amplitude. */
+#define HIDDEN (1.0 / 3.0)
+
+/* ---------------------------------------------------------------- memory */
+
+fst_status measure_work_begin(measure_work *work, fst_track *track, fst_error *error)
+{
+    *work = (measure_work){.track = track, .stretch = {1.0, 0.0, 1.0}, .gain = 1.0};
+    work->row = malloc((track->rows + 1) * sizeof *work->row);
+    work->t = malloc(7 * (track->rows + 1) * sizeof *work->t);
+    if (!work->row || !work->t) {
+        measure_work_free(work);
+        return fst_fail(error, FST_NO_MEMORY, "", "no memory for a track of %zu frames", track->rows);
+    }
+    double **const parts[] = {&work->x, &work->y, &work->r, &work->alpha, &work->r_off, &work->a_off};
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i)
+        *parts[i] = work->t + (i + 1) * (track->rows + 1);
+    work->fps = isfinite(track->fps) ? track->fps : 1.0;
+    measure_work_take(work);
+    return FST_OK;
+}
+
+void measure_work_free(measure_work *work)
+{
+    free(work->row);
+    free(work->t);
+    *work = (measure_work){.track = NULL};
+}
+
+void measure_work_take(measure_work *work)
+{
+    const fst_track *track = work->track;
+    const int timed = isfinite(track->fps);
+    work->count = 0;
+    for (size_t i = 0; i < track->rows; ++i) {
+        if (track->flag[i] != FST_FRAME_SEEN)
+            continue;
+        work->row[work->count] = i;
+        work->t[work->count] = timed ? track->t[i] : (double)(track->frame[i] - track->frame[0]);
+        work->x[work->count] = track->x[i];
+        work->y[work->count] = track->y[i];
+        ++work->count;
+    }
+    const double middle = work->count > 0 ? 0.5 * (work->t[0] + work->t[work->count - 1]) : 0.0;
+    for (size_t i = 0; i < work->count; ++i)
+        work->t[i] -= middle;
+}
+
+double measure_duration(const measure_work *work)
+{
+    return work->t[work->count - 1] - work->t[0];
+}
+
+/* ---------------------------------------------------------------- the rows of the models */
+
+/* 1, and cosine and sine of the harmonics that are fitted.  Returns the number of columns. */
+static int harmonic_row(const measure_work *work, size_t i, double *row)
+{
+    int n = 0;
+    row[n++] = 1.0;
+    if (!(work->f0 > 0))
+        return n;
+    const double angle = FST_TWO_PI * work->f0 * work->t[i], c1 = cos(angle), s1 = sin(angle);
+    double c = 1.0, s = 0.0;
+    for (int k = 1; k <= work->harmonics; ++k) {
+        const double turned = c * c1 - s * s1;
+        s = s * c1 + c * s1;
+        c = turned;
+        if (work->skipped[k - 1])
+            continue;
+        row[n++] = c;
+        row[n++] = s;
+    }
+    return n;
+}
+
+int measure_radial_row(const measure_work *work, size_t i, double *row)
+{
+    int n = harmonic_row(work, i, row);
+    double slope = 0.0;
+    for (int k = 1, at = 1; k <= work->harmonics && work->f0 > 0; ++k)
+        if (!work->skipped[k - 1]) {
+            slope +=
+                k * (work->radial.coefficient[at + 1] * row[at] - work->radial.coefficient[at] * row[at + 1]);
+            at += 2;
+        }
+    const double c = cos(work->alpha[i]), s = sin(work->alpha[i]);
+    row[n++] = c;
+    row[n++] = s;
+    row[n++] = work->r[i] * (c * c - s * s);
+    row[n++] = work->r[i] * 2 * c * s;
+    row[n++] = FST_TWO_PI * work->t[i] * slope; /* by f0 */
+    return n;
+}
+
+int measure_angular_row(const measure_work *work, size_t i, double *row)
+{
+    const int n = harmonic_row(work, i, row);
+    row[n] = FST_TWO_PI * work->t[i];
+    return n + 1;
+}
+
+double measure_folded(double frequency, double fps)
+{
+    return fabs(frequency - fps * round(frequency / fps));
+}
+
+/* Choose the harmonics: not more than the rows allow, and none that the frame rate maps onto zero or onto
+ * another one.
+ */
+static void choose_harmonics(measure_work *work)
+{
+    const double apart = 1.5 / measure_duration(work);
+    work->harmonics = MEASURE_HARMONICS;
+    while (work->harmonics > 1 && (size_t)(4 * (2 * work->harmonics + 1 + MEASURE_GEOMETRY)) > work->count)
+        --work->harmonics;
+    for (int k = 1; k <= work->harmonics; ++k) {
+        const double here = measure_folded(k * work->f0, work->fps);
+        work->skipped[k - 1] = here < apart;
+        for (int j = 1; j < k; ++j)
+            work->skipped[k - 1] |= fabs(here - measure_folded(j * work->f0, work->fps)) < apart;
+    }
+}
+
+/* ---------------------------------------------------------------- one round */
+
+/* The circle through the places, by least squares of x^2 + y^2 = 2 a x + 2 b y + c (Kasa). */
+static void circle(measure_work *work)
+{
+    measure_regression fit;
+    double mean[2] = {0, 0};
+    for (size_t i = 0; i < work->count; ++i) {
+        mean[0] += work->x[i] / (double)work->count;
+        mean[1] += work->y[i] / (double)work->count;
+    }
+    measure_regression_begin(&fit, 3);
+    for (size_t i = 0; i < work->count; ++i) {
+        const double x = work->x[i] - mean[0], y = work->y[i] - mean[1];
+        const double row[3] = {1.0, 2 * x, 2 * y};
+        measure_regression_add(&fit, row, x * x + y * y);
+    }
+    measure_regression_solve(&fit);
+    work->centre[0] = mean[0] + fit.coefficient[1];
+    work->centre[1] = mean[1] + fit.coefficient[2];
+}
+
+/* r and alpha of a row; alpha is unwrapped along the present model of it. */
+static void place_row(measure_work *work, size_t i)
+{
+    double row[MEASURE_MOST_COLUMNS];
+    const double x = work->x[i] - work->centre[0], y = work->y[i] - work->centre[1];
+    const double px = work->stretch[0] * x + work->stretch[1] * y;
+    const double py = work->stretch[1] * x + work->stretch[2] * y;
+    work->r[i] = sqrt(px * px + py * py);
+    const double angle = atan2(py, px);
+    (void)measure_angular_row(work, i, row);
+    const double expected = measure_regression_value(&work->angular, row);
+    work->alpha[i] = angle + FST_TWO_PI * round((expected - angle) / FST_TWO_PI);
+}
+
+static void place_rows(measure_work *work)
+{
+    for (size_t i = 0; i < work->count; ++i)
+        place_row(work, i);
+}
+
+void measure_place_row(measure_work *work, size_t at, size_t i)
+{
+    const size_t known = work->row[0]; /* its time here says where the times of the work begin */
+    const fst_track *track = work->track;
+    work->t[at] = work->t[0] + (isfinite(track->fps) ? track->t[i] - track->t[known]
+                                                     : (double)(track->frame[i] - track->frame[known]));
+    work->x[at] = track->x[i];
+    work->y[at] = track->y[i];
+    place_row(work, at);
+}
+
+/* Fit the model with the rows of `row_of` to y; `off` becomes what is left over. */
+static void fit_model(const measure_work *work, int (*row_of)(const measure_work *, size_t, double *),
+                      const double *y, double *off, measure_regression *model)
+{
+    double row[MEASURE_MOST_COLUMNS];
+    measure_regression fit; /* rows of r need the coefficients that are known so far */
+    measure_regression_begin(&fit, row_of(work, 0, row));
+    for (size_t i = 0; i < work->count; ++i) {
+        (void)row_of(work, i, row);
+        measure_regression_add(&fit, row, y[i]);
+    }
+    measure_regression_solve(&fit);
+    for (size_t i = 0; i < work->count; ++i) {
+        (void)row_of(work, i, row);
+        off[i] = y[i] - measure_regression_value(&fit, row);
+    }
+    *model = fit;
+}
+
+/* The slope of the model of alpha is the bead's rate. */
+static void fit_angular(measure_work *work)
+{
+    fit_model(work, measure_angular_row, work->alpha, work->a_off, &work->angular);
+    work->bead = work->angular.coefficient[work->angular.columns - 1];
+}
+
+static void fit_radial(measure_work *work)
+{
+    fit_model(work, measure_radial_row, work->r, work->r_off, &work->radial);
+}
+
+/* Take (I - S) M, S = (u, v; v, -u), as the new matrix; made symmetric by leaving out the rotation that it
+ * holds, and scaled so that the direction that the camera does not shrink keeps its length. */
+static void stretch_by(double m[3], double u, double v)
+{
+    const double a = (1 - u) * m[0] - v * m[1], b = (1 - u) * m[1] - v * m[2];
+    const double c = -v * m[0] + (1 + u) * m[1], d = -v * m[1] + (1 + u) * m[2];
+    const double xx = a * a + c * c, xy = a * b + c * d, yy = b * b + d * d; /* its transpose times itself */
+    const double root = fabs(a * d - b * c), scale = sqrt(xx + yy + 2 * root);
+    const double p = (xx + root) / scale, q = xy / scale, r = (yy + root) / scale; /* the square root of that */
+    const double least = 0.5 * (p + r) - sqrt(0.25 * (p - r) * (p - r) + q * q);
+    m[0] = p / least;
+    m[1] = q / least;
+    m[2] = r / least;
+}
+
+/* Move centre and tilt by what the regression found.  Returns the size of the move, over r. */
+static double move(measure_work *work)
+{
+    const int n = work->radial.columns;
+    const double *found = work->radial.coefficient + n - MEASURE_GEOMETRY, *m = work->stretch;
+    const double det = m[0] * m[2] - m[1] * m[1], r0 = work->radial.coefficient[0];
+    double dx = found[MEASURE_CENTRE_X], dy = found[MEASURE_CENTRE_Y];
+    const double far = sqrt(dx * dx + dy * dy) / (0.3 * fabs(r0));
+    if (far > 1.0) { /* too far for a linear step */
+        dx /= far;
+        dy /= far;
+    }
+    work->centre[0] += (m[2] * dx - m[1] * dy) / det;
+    work->centre[1] += (m[0] * dy - m[1] * dx) / det;
+    double u = found[MEASURE_TILT_C], v = found[MEASURE_TILT_S];
+    const double size = sqrt(u * u + v * v), most = 0.1;
+    if (size > most) {
+        u *= most / size;
+        v *= most / size;
+    }
+    stretch_by(work->stretch, u, v);
+    if (work->f0 > 0)
+        work->f0 += found[MEASURE_SLOPE];
+    return fmax(fabs(dx) + fabs(dy), r0 * size) / r0;
+}
+
+/* The amplitude of k f0 in r, 0 where the model lacks it, and the least one that would stand out of the noise. */
+static double line_of(const measure_work *work, int k, double *least)
+{
+    *least = INFINITY;
+    if (work->skipped[k - 1])
+        return 0.0;
+    int at = 1;
+    for (int j = 1; j < k; ++j)
+        at += work->skipped[j - 1] ? 0 : 2;
+    const double square = fst_dot(work->r_off, work->r_off, (int)work->count);
+    const double variance = square / (double)(work->count - (size_t)work->radial.columns);
+    const double *c = work->radial.coefficient + at;
+    *least = 5.0 * sqrt(variance * (work->radial.inverse[at][at] + work->radial.inverse[at + 1][at + 1]));
+    return sqrt(c[0] * c[0] + c[1] * c[1]);
+}
+
+int measure_has_line(const measure_work *work, int k)
+{
+    double least;
+    return line_of(work, k, &least) > least;
+}
+
+int measure_may_hide_line(const measure_work *work, int k, int behind)
+{
+    double hidden, least;
+    const double seen = line_of(work, behind, &least);
+    (void)line_of(work, k, &hidden);
+    return hidden > HIDDEN * seen;
+}
+
+/* ---------------------------------------------------------------- the motion */
+
+/* Start: the centre of the circle, and the strongest line of the places as complex numbers. */
+static fst_status begin_motion(measure_work *work, fst_error *error)
+{
+    circle(work);
+    for (size_t i = 0; i < work->count; ++i) {
+        work->r_off[i] = work->x[i] - work->centre[0];
+        work->a_off[i] = work->y[i] - work->centre[1];
+    }
+    const measure_series places = {work->t, work->r_off, work->a_off, work->count, work->fps};
+    measure_line line;
+    const fst_status status = measure_strongest_line(&places, 0.4 / measure_duration(work), &line, error);
+    if (status != FST_OK)
+        return status;
+    if (!(line.power > line.limit))
+        return fst_fail(
+            error, FST_NO_CONVERGENCE, "",
+            "the bead does not go round: its places scatter about one point, as those of a resting bead do");
+    work->bead = line.frequency;
+    if (fabs(work->bead) * measure_duration(work) < 0.9)
+        return fst_fail(error, FST_NO_CONVERGENCE, "",
+                        "the bead rests, or makes less than one turn in the film (%.2g turns): film it for at "
+                        "least ten turns",
+                        fabs(work->bead) * measure_duration(work));
+    double sum[2];
+    measure_wave(&places, work->bead, sum);
+    measure_regression_begin(&work->angular, 2);
+    work->angular.coefficient[0] = atan2(sum[1], sum[0]);
+    work->angular.coefficient[1] = work->bead;
+    return FST_OK;
+}
+
+/* Rounds until centre and tilt move no more, with the harmonics of work->f0, or without any. */
+fst_status measure_refine_motion(measure_work *work, fst_error *error)
+{
+    work->radial = (measure_regression){.columns = 0};
+    if (work->f0 > 0)
+        choose_harmonics(work);
+    double row[MEASURE_MOST_COLUMNS];
+    /* The model of alpha so far has other columns: keep its line, drop the rest. */
+    const double phase = work->angular.coefficient[0], rate = work->bead;
+    measure_regression_begin(&work->angular, measure_angular_row(work, 0, row));
+    work->angular.coefficient[0] = phase;
+    work->angular.coefficient[work->angular.columns - 1] = rate;
+    for (int round = 0; round < MOST_ROUNDS; ++round) {
+        /* How many rounds there will be is not known: some forty are usual. */
+        const fst_status told = fst_tell(work->progress, work->rounds / (work->rounds + 10.0), NULL, error);
+        if (told != FST_OK)
+            return told;
+        work->rounds += 1.0;
+        place_rows(work);
+        fit_angular(work);
+        fit_radial(work);
+        const double moved = move(work);
+        const double wide = work->stretch[0] + work->stretch[2];
+        if (!isfinite(moved) || wide > 8.0)
+            return fst_fail(error, FST_NO_CONVERGENCE, "",
+                            "these places lie on no circle, seen straight or aslant: is it one bead that was "
+                            "followed, and does it circle?");
+        if (moved < 1e-9 && round > 2)
+            break;
+    }
+    return FST_OK;
+}
+
+/* Look for the line of the festoons in what a model without them leaves of r. */
+static fst_status find_peak(measure_work *work, fst_error *error)
+{
+    const measure_series radii = {work->t, work->r_off, NULL, work->count, work->fps};
+    measure_line line;
+    const fst_status status = measure_strongest_line(
+        &radii, fmax(0.6 * fabs(work->bead), 2.0 / measure_duration(work)), &line, error);
+    work->peak = status == FST_OK && line.power > line.limit ? line.frequency : 0.0;
+    return status;
+}
+
+/* Residuals of r without the festoons, at the centre and tilt that were found with them. */
+static void hide_festoons(measure_work *work)
+{
+    const double f0 = work->f0;
+    work->f0 = 0.0;
+    work->radial = (measure_regression){.columns = 0};
+    fit_radial(work);
+    work->f0 = f0;
+}
+
+fst_status measure_find_motion(measure_work *work, fst_error *error)
+{
+    if (work->count < LEAST_ROWS)
+        return fst_fail(error, FST_NO_CONVERGENCE, "", "%zu places of the bead: at least %d are needed",
+                        work->count, LEAST_ROWS);
+    fst_status status = begin_motion(work, error);
+    work->f0 = 0.0;
+    if (status == FST_OK)
+        status = measure_refine_motion(work, error);
+    /* Where the festoons were found, centre and tilt are known better, and show the line better. */
+    for (int again = 0; again < 2 && status == FST_OK; ++again) {
+        if (again > 0)
+            hide_festoons(work);
+        status = find_peak(work, error);
+        work->f0 = 0.5 * work->peak;
+        if (status == FST_OK)
+            status = measure_refine_motion(work, error);
+        work->half = status == FST_OK && work->peak > 0 && measure_has_line(work, 1);
+    }
+    return status;
+}

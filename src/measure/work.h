@@ -1,0 +1,104 @@
+/* work.h - a track while it is measured: what is known of its motion so far.
+ *
+ *   clean.c     places that no bead can have been at              fst_track --> rows of seen places
+ *   geometry.c  centre, tilt, rate of turning, festoons           rows --> r, alpha, and a model of both
+ *   drive.c     the drive, the symmetry, whether the clock is right
+ *   errors.c    what would have come out with other turns
+ *   measure.c   these in their order, and what is said of them
+ */
+#ifndef FST_MEASURE_WORK_H
+#define FST_MEASURE_WORK_H
+
+#include <festoon/festoon_tools.h>
+
+#include "measure/regress.h"
+
+enum { MEASURE_HARMONICS = FST_WAVE_LIMIT };
+
+/* Columns of the model of r: the constant, the harmonics of f0 (cos, sin each), then these. */
+enum { MEASURE_CENTRE_X, MEASURE_CENTRE_Y, MEASURE_TILT_C, MEASURE_TILT_S, MEASURE_SLOPE, MEASURE_GEOMETRY };
+
+typedef struct measure_work {
+    fst_track *track;
+    size_t count;          /* rows that are seen and not rejected */
+    size_t *row;           /* of the track */
+    double *t;             /* s, from the middle of the film; frames where there is no clock */
+    double *x, *y;         /* in the picture */
+    double *r, *alpha;     /* on the plate, about the centre; alpha unwrapped */
+    double *r_off, *a_off; /* residuals of the models of r and alpha */
+    double fps;            /* frames in a unit of t */
+    double centre[2], stretch[3];
+    double bead;   /* turns of the bead in a unit of t, counter-clockwise positive, as filmed */
+    double f0;     /* the frequency of which r has the harmonics; 0: r does not oscillate */
+    int harmonics; /* how many are fitted */
+    int skipped[MEASURE_HARMONICS]; /* harmonics that cannot be told from others at this frame rate */
+    double peak;                    /* the strongest line of r; 0: none beyond the noise */
+    int half;                       /* there is a line at half that frequency too */
+    const fst_progress *progress;   /* NULL: nobody is told */
+    double rounds;                  /* of the regression so far */
+    double gain;                    /* by how much r oscillates more since an exposure was undone */
+    measure_regression radial, angular;
+} measure_work;
+
+fst_status measure_work_begin(measure_work *work, fst_track *track, fst_error *error);
+void measure_work_free(measure_work *work);
+/* Take the rows of the track that are seen. */
+void measure_work_take(measure_work *work);
+
+/* Mark places far outside of all others, or far from both neighbours by how fast the bead moves; returns how
+ * many. */
+size_t measure_reject_jumps(fst_track *track, const measure_work *work);
+/* Take back places that were rejected, but lie where the model of the motion has the bead; returns how many. */
+size_t measure_take_back(fst_track *track, measure_work *work);
+/* Mark places far from the model of the motion; returns how many. */
+size_t measure_reject_far(fst_track *track, const measure_work *work);
+
+/* Find centre, tilt, rates and festoons.  FST_NO_CONVERGENCE: the bead rests or makes no turn. */
+fst_status measure_find_motion(measure_work *work, fst_error *error);
+/* The same once more, with the harmonics of work->f0 (none where it is 0). */
+fst_status measure_refine_motion(measure_work *work, fst_error *error);
+/* Put row `i` of the track at the place `at` of the work's arrays, with r and alpha by the present centre and
+ * models. */
+void measure_place_row(measure_work *work, size_t at, size_t i);
+/* Whether r oscillates with k f0, beyond the noise. */
+int measure_has_line(const measure_work *work, int k);
+/* Whether the noise could hide an oscillation with k f0 that is not small beside that with `behind` f0. */
+int measure_may_hide_line(const measure_work *work, int k, int behind);
+/* The frequency at which a film of so many frames a second shows another one. */
+double measure_folded(double frequency, double fps);
+double measure_duration(const measure_work *work);
+/* A row of the model of r, and of alpha (the first columns: 1, harmonics; then t). */
+int measure_radial_row(const measure_work *work, size_t i, double *row);
+int measure_angular_row(const measure_work *work, size_t i, double *row);
+
+/* What the rates tell of the drive. */
+typedef struct measure_drive {
+    fst_motion motion;
+    int symmetry;                       /* a, by which f_drive follows */
+    int unsure;                         /* a is 2, but the noise may hide that it is 1 */
+    int relative;                       /* 1: the bead goes round with the magnet, -1: against it */
+    double radial;                      /* f_r in Hz, as it is and not as the film shows it; NAN: unknown */
+    double drive_apart, festoons_apart; /* how far another reading of a folded line puts them; 0: none does */
+    int clock_follows;                  /* the file has no clock, and the drive gave it one */
+} measure_drive;
+
+/* Compare rates and drive: f0, symmetry and sense follow, and the clock is corrected where only another one
+ * agrees. Warnings go into `measured`. */
+fst_status measure_find_drive(measure_work *work, const fst_measure_options *options, measure_drive *drive,
+                              fst_measurement *measured, fst_error *error);
+
+/* What an exposure must leave of an oscillation so that the rest can be restored. */
+#define MEASURE_LEAST_KEPT 0.3
+
+/* What an exposure of so many seconds leaves of an oscillation. */
+double measure_kept(double frequency, double exposure);
+/* Undo what an exposure of so many seconds blurs. */
+void measure_sharpen(measure_work *work, double exposure, fst_measurement *measured);
+
+/* Fill in all means and errors. */
+fst_status measure_find_errors(const measure_work *work, const measure_drive *drive, fst_measurement *measured,
+                               fst_error *error);
+
+void measure_warn(fst_measurement *measured, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+#endif

@@ -1,0 +1,72 @@
+/* track.c - the memory of a track, and writing it as festoon's own CSV. */
+#include <festoon/festoon_tools.h>
+
+#include <stdlib.h>
+
+#include "base/error.h"
+#include "base/grow.h"
+#include "base/number.h"
+#include "host/whole_file.h"
+
+void fst_track_free(fst_track *track)
+{
+    free(track->frame);
+    free(track->t);
+    free(track->x);
+    free(track->y);
+    free(track->flag);
+    *track = (fst_track){0};
+}
+
+fst_status fst_track_append(fst_track *track, int64_t frame, double t, double x, double y, fst_error *error)
+{
+    if (track->rows == track->capacity) {
+        const size_t capacity = track->capacity ? 2 * track->capacity : 256;
+        if (!fst_resize(&track->frame, capacity, sizeof *track->frame) ||
+            !fst_resize(&track->t, capacity, sizeof *track->t) ||
+            !fst_resize(&track->x, capacity, sizeof *track->x) ||
+            !fst_resize(&track->y, capacity, sizeof *track->y) || !fst_resize(&track->flag, capacity, 1))
+            return fst_fail(error, FST_NO_MEMORY, "", "no memory for a track of %zu frames", capacity);
+        track->capacity = capacity;
+    }
+    const int seen = isfinite(x) && isfinite(y);
+    const size_t i = track->rows++;
+    track->frame[i] = frame;
+    track->t[i] = t;
+    track->x[i] = seen ? x : NAN;
+    track->y[i] = seen ? y : NAN;
+    track->flag[i] = seen ? FST_FRAME_SEEN : FST_FRAME_LOST;
+    return FST_OK;
+}
+
+/* Write a number and what follows it; nothing where it is NAN. */
+static void put(FILE *out, double value, char end)
+{
+    char text[64];
+    if (isfinite(value)) {
+        (void)fst_number_write(text, sizeof text, value);
+        (void)fputs(text, out);
+    }
+    (void)fputc(end, out);
+}
+
+fst_status fst_track_write(const char *path, const fst_track *track, fst_error *error)
+{
+    fst_whole_file file;
+    const fst_status status = fst_whole_file_open(&file, path, error);
+    if (status != FST_OK)
+        return status;
+    const fst_c_locale locale = fst_c_locale_enter();
+    const int timed = track->rows == 0 || isfinite(track->t[0]);
+    const char *unit = track->length_unit[0] ? track->length_unit : "px";
+    (void)fprintf(file.stream, "frame,%sx [%s],y [%s]\n", timed ? "t [s]," : "", unit, unit);
+    for (size_t i = 0; i < track->rows; ++i) {
+        (void)fprintf(file.stream, "%lld,", (long long)track->frame[i]);
+        if (timed)
+            put(file.stream, track->t[i], ',');
+        put(file.stream, track->x[i], ',');
+        put(file.stream, track->y[i], '\n');
+    }
+    fst_c_locale_leave(locale);
+    return fst_whole_file_commit(&file, error);
+}

@@ -1,0 +1,321 @@
+/* Runs of several beads: what is told of opposite beads, a walker, a bar and a bead that leaves the plate, and what is
+ * refused.
+ *
+ * tests: beads/run.c beads/groups.c beads/setup.c */
+#include <festoon/beads.h>
+
+#include "physics.h"
+
+static const double EPS = 2.5 / 23;
+
+static fst_status run_beads(const fst_params *beads, int count, const fst_beads_options *options,
+                            fst_beads_result *result, fst_error *error)
+{
+    const fst_beads_options usual = fst_default_beads_options();
+    return fst_beads_run(beads, count, options ? options : &usual, result, error);
+}
+
+static fst_beads_result *result_of(const fst_params *beads, int count, const fst_beads_options *options)
+{
+    static fst_beads_result result;
+    fst_error error = {FST_OK, "", ""};
+    if (run_beads(beads, count, options, &result, &error) != FST_OK)
+        fail_msg("fst_beads_run: %s", error.sentence);
+    return &result;
+}
+
+/* Two beads at 30 Hz whose angles differ by `apart` degrees. */
+static void two_beads(double apart, fst_params beads[2])
+{
+    for (int i = 0; i < 2; ++i) {
+        beads[i] = fst_default_params();
+        beads[i].drive_frequency = 30;
+        beads[i].start_phi = 3 + apart * i;
+        beads[i].run_periods = 100;
+        beads[i].run_discard = 60;
+    }
+}
+
+/* Opposite beads: two groups, each counter-rotating; one bead's numbers are those of `festoon run`. */
+static void test_apart(void **unused)
+{
+    (void)unused;
+    fst_params beads[2];
+    two_beads(180, beads);
+    const fst_beads_result *two = result_of(beads, 2, NULL);
+    assert_int_equal(two->outcome, FST_BEADS_APART);
+    assert_int_equal(two->group_count, 2);
+    assert_int_equal(two->touch_count, 2); /* with the plate */
+    assert_int_equal(two->event_count, 0);
+    for (int i = 0; i < 2; ++i) {
+        assert_int_equal(two->groups[i].kind, FST_BEAD_GROUP_SINGLE);
+        assert_int_equal(two->beads[i].regime, FST_REGIME_COUNTER_ROTATING);
+        CHECK_CLOSE(two->beads[i].mean_r, two->groups[i].mean_r, 1e-6);
+        CHECK_CLOSE(two->beads[i].mean_alpha_dot, two->groups[i].centre_rate, 1e-9);
+        CHECK_CLOSE(two->beads[i].final_state[2], EPS, 1e-15);
+        assert_true(isnan(two->groups[i].axis_rate) && isnan(two->beads[i].ejected_at));
+    }
+    CHECK_CLOSE(two->energy_residual, 0, 1e-9);
+    CHECK_CLOSE(two->beads[0].mean_alpha_dot / two->omega, -0.132, 1e-3);
+    const double mean_load = two->beads[0].mean_load_weights;
+
+    fst_run_options options = fst_default_run_options();
+    fst_run_result alone;
+    const fst_beads_result *one = result_of(beads, 1, NULL);
+    assert_int_equal(fst_run(&beads[0], &options, &alone, NULL), FST_OK);
+    CHECK_CLOSE(one->beads[0].mean_r, alone.mean_r, 1e-3);
+    CHECK_CLOSE(one->beads[0].mean_alpha_dot, alone.mean_alpha_dot, 1e-4);
+    CHECK_CLOSE(greatest_difference(one->beads[0].final_state, alone.final_state, 2), 0, 1e-8);
+    assert_true(fabs(one->beads[0].mean_load_weights - mean_load) > 1e-4); /* the other one's field is felt */
+}
+
+/* A pair that snapped walks: its axis turns with the magnet, its centre against it. */
+static void test_walker(void **unused)
+{
+    (void)unused;
+    fst_params beads[2];
+    two_beads(37, beads);
+    for (int i = 0; i < 2; ++i) {
+        beads[i].run_periods = 400;
+        beads[i].run_discard = 200;
+    }
+    fst_beads_options options = fst_default_beads_options();
+    options.chi = 1.243e-3;
+    const fst_beads_result *r = result_of(beads, 2, &options);
+    assert_int_equal(r->outcome, FST_BEADS_WALKER);
+    assert_int_equal(r->group_count, 1);
+    assert_int_equal(r->groups[0].kind, FST_BEAD_GROUP_PAIR);
+    CHECK_CLOSE(r->groups[0].axis_rate / r->omega, 1, 1e-3);
+    CHECK_CLOSE(r->groups[0].centre_rate / r->omega, -0.1211756265, 2e-3);
+    CHECK_CLOSE(r->drive_power, 5.0949300e-3, 3e-5);
+    CHECK_CLOSE(r->drive_power, r->plate_power + r->pair_power + r->impact_power, 1e-5);
+    assert_true(r->event_count == FST_BEADS_EVENTS && r->counts[FST_BEAD_EVENT_LAND] > FST_BEADS_EVENTS / 10);
+    assert_true(r->restitution == 0.0 && r->forces_unique);
+    CHECK_CLOSE(r->energy_residual, 0, 1e-8);
+}
+
+/* Restitution changes the walk: at 0.5 the mean r is 0.762 and the centre's rate -0.165 of the drive's; without friction
+ * between the beads the pair walks too. */
+static void test_other_walkers(void **unused)
+{
+    (void)unused;
+    fst_params beads[2];
+    fst_beads_options options = fst_default_beads_options();
+    options.chi = 1.243e-3;
+    two_beads(37, beads);
+    for (int i = 0; i < 2; ++i) {
+        beads[i].run_periods = 200;
+        beads[i].run_discard = 100;
+        beads[i].impact_restitution = 0.5;
+    }
+    const fst_beads_result *r = result_of(beads, 2, &options);
+    assert_int_equal(r->outcome, FST_BEADS_WALKER);
+    CHECK_CLOSE(r->beads[0].mean_r, 0.762, 1e-3);
+    CHECK_CLOSE(r->groups[0].centre_rate / r->omega, -0.165, 1e-3);
+    two_beads(60, beads);
+    options.pair_rate = 0;
+    r = result_of(beads, 2, &options);
+    assert_int_equal(r->outcome, FST_BEADS_WALKER);
+    assert_true(r->pair_power == 0.0 && r->plate_power > 0 && r->impact_power > 0);
+}
+
+/* The same pair with restitution 0.8 becomes a bar, which turns about the axis. */
+static void test_bar(void **unused)
+{
+    (void)unused;
+    fst_params beads[2];
+    two_beads(37, beads);
+    for (int i = 0; i < 2; ++i) {
+        beads[i].impact_restitution = 0.8;
+        beads[i].run_periods = 200;
+        beads[i].run_discard = 150;
+    }
+    fst_beads_options options = fst_default_beads_options();
+    options.chi = 1.243e-3;
+    const fst_beads_result *r = result_of(beads, 2, &options);
+    assert_int_equal(r->outcome, FST_BEADS_BAR);
+    assert_true(isnan(r->groups[0].centre_rate) && r->groups[0].mean_r < 1e-6);
+    CHECK_CLOSE(r->groups[0].axis_rate / r->omega, 1, 1e-6);
+    CHECK_CLOSE(r->drive_power, 5.53486e-5, 1e-8);
+    assert_int_equal(r->touch_count, 3);
+    for (int i = 0; i < 2; ++i) {
+        CHECK_CLOSE(r->beads[i].mean_load_weights, 19.72219, 1e-3);
+        assert_int_equal(r->touches[i].beads[1], -1);
+    }
+    CHECK_CLOSE(r->touches[2].force, 3.29360694, 1e-5);
+}
+
+/* The opposite pair at 30 Hz, settled: <r> = 0.92580221 and alpha'/omega = -0.13233988 over whole returns, of which the
+ * window of 400 turns holds no whole number. */
+static void test_opposite_pair(void **unused)
+{
+    (void)unused;
+    fst_params beads[2];
+    fst_beads_options options = fst_default_beads_options();
+    options.chi = 1.243e-3;
+    two_beads(180, beads);
+    for (int i = 0; i < 2; ++i) {
+        beads[i].run_periods = 1000;
+        beads[i].run_discard = 600;
+    }
+    const fst_beads_result *r = result_of(beads, 2, &options);
+    assert_int_equal(r->outcome, FST_BEADS_APART);
+    for (int i = 0; i < 2; ++i) {
+        CHECK_CLOSE(r->beads[i].mean_r, 0.92580221, 1e-5);
+        CHECK_CLOSE(r->beads[i].mean_alpha_dot / r->omega, -0.13233988, 2e-5);
+    }
+}
+
+/* At 30 Hz beads that start with 105.4 degrees between them are on the border between two that stay apart and two that
+ * snap together after some hundred turns. */
+static void test_border(void **unused)
+{
+    (void)unused;
+    fst_params beads[2];
+    fst_beads_options options = fst_default_beads_options();
+    options.chi = 1.243e-3;
+    for (int side = -1; side <= 1; side += 2) {
+        two_beads(105.4 + 0.6 * side, beads);
+        for (int i = 0; i < 2; ++i) {
+            beads[i].run_periods = 600;
+            beads[i].run_discard = 550;
+        }
+        const fst_beads_result *r = result_of(beads, 2, &options);
+        assert_int_equal(r->counts[FST_BEAD_EVENT_TOUCH] > 0, side < 0);
+        assert_int_equal(r->outcome == FST_BEADS_APART, side > 0);
+    }
+}
+
+/* Six beads, evenly spread, fall together.  On the way a contact whose load vanishes may neither press, nor graze, nor
+ * open alone: it opens together with another. */
+static void test_contacts_that_open_together(void **unused)
+{
+    (void)unused;
+    fst_params beads[6];
+    for (int i = 0; i < 6; ++i) {
+        beads[i] = fst_default_params();
+        beads[i].drive_frequency = 30;
+        beads[i].start_phi = 3 + 60.0 * i;
+        beads[i].run_periods = 15;
+        beads[i].run_discard = 10;
+    }
+    const fst_beads_result *r = result_of(beads, 6, NULL);
+    assert_int_equal(r->counts[FST_BEAD_EVENT_TOUCH], 5);
+    CHECK_CLOSE(r->energy_residual, 0, 1e-8);
+}
+
+/* A plate that ends before the bead's orbit: it is ejected, the other, nearer to the axis, goes on. */
+static void test_ejected(void **unused)
+{
+    (void)unused;
+    fst_params beads[2];
+    two_beads(180, beads);
+    double state[2 * FST_BEAD_NUMBERS] = {0};
+    for (int i = 0; i < 2; ++i) {
+        double *bead = state + FST_BEAD_NUMBERS * i;
+        beads[i].plate_radius = 2.0 * 23e-3;
+        beads[i].run_periods = 20;
+        beads[i].run_discard = 10;
+        bead[0] = i ? -0.95 : 1.8;
+        bead[2] = EPS;
+        bead[3] = i ? 0.0 : 2.0;
+        bead[6] = 1.0;
+    }
+    fst_beads_options options = fst_default_beads_options();
+    options.state = state;
+    const fst_beads_result *r = result_of(beads, 2, &options);
+    assert_int_equal(r->outcome, FST_BEADS_EJECTED);
+    assert_int_equal(r->beads[0].regime, FST_REGIME_EJECTED);
+    assert_true(r->beads[0].ejected_at > 0 && r->beads[0].ejected_at < 1 && isnan(r->beads[0].mean_r));
+    assert_true(isnan(r->beads[1].ejected_at) && r->beads[1].mean_r > 0.3 && r->group_count == 1);
+    CHECK_CONTAINS(r->reason, "bead 0 passed the plate's edge");
+    CHECK_CLOSE(r->energy_residual, 0, 1e-9);
+}
+
+/* chi follows from the moment of a bead of 1.2 T where nothing says another one. */
+static void test_moments(void **unused)
+{
+    (void)unused;
+    fst_params beads[2];
+    two_beads(180, beads);
+    fst_beads_options told = fst_default_beads_options();
+    told.chi = 1.2429418375691e-3;
+    static fst_beads_result a;
+    a = *result_of(beads, 2, NULL);
+    CHECK_CLOSE(
+        greatest_difference(result_of(beads, 2, &told)->beads[0].final_state, a.beads[0].final_state, 2), 0,
+        1e-9);
+    told.chi = 1e-9;
+    assert_true(greatest_difference(result_of(beads, 2, &told)->beads[0].final_state, a.beads[0].final_state,
+                                    2) > 1e-3);
+}
+
+static void check_refused(const fst_params *beads, int count, const fst_beads_options *options,
+                          const char *part)
+{
+    static fst_beads_result result;
+    fst_error error = {FST_OK, "", ""};
+    assert_int_equal(run_beads(beads, count, options, &result, &error), FST_BAD_INPUT);
+    CHECK_CONTAINS(error.sentence, part);
+}
+
+static void test_refused(void **unused)
+{
+    (void)unused;
+    fst_params beads[9];
+    fst_beads_options options = fst_default_beads_options();
+    two_beads(5, beads);
+    check_refused(beads, 2, NULL, "beads 0 and 1 overlap at the start");
+    check_refused(beads, 9, NULL, "9 beads: the exact method takes 1 to 8");
+    two_beads(180, beads);
+    options.pair_rate = -1;
+    check_refused(beads, 2, &options, "must not be negative");
+    options.cookie = 0;
+    check_refused(beads, 2, &options, "never initialised");
+    beads[1].drive_frequency = 31;
+    check_refused(beads, 2, NULL, "drive.frequency differs between bead 0 and bead 1");
+    for (int i = 0; i < 2; ++i)
+        beads[i].friction_law = FST_FRICTION_COULOMB;
+    check_refused(beads, 2, NULL, "friction.law must be viscous or none");
+    two_beads(180, beads);
+    beads[1].bead_material = FST_MATERIAL_MIXED;
+    check_refused(beads, 2, NULL, "bead 1: several beads are hard magnets");
+    two_beads(180, beads);
+    beads[0].model_dynamics = FST_DYNAMICS_FARAGO2020;
+    check_refused(beads, 2, NULL, "model.dynamics must be rigid");
+    two_beads(180, beads);
+    beads[0].magnet_shape = FST_MAGNET_GRID;
+    check_refused(beads, 2, NULL, "has the field of one plane");
+}
+
+/* A caller who says stop is obeyed. */
+static fst_status stop(void *user, double fraction, const char *what, fst_error *error)
+{
+    (void)user, (void)what, (void)error;
+    return fraction > 0.1 ? FST_INTERRUPTED : FST_OK;
+}
+
+static void test_interrupted(void **unused)
+{
+    (void)unused;
+    static fst_beads_result result;
+    const fst_progress progress = {NULL, stop};
+    fst_params beads[2];
+    fst_beads_options options = fst_default_beads_options();
+    options.progress = &progress;
+    two_beads(180, beads);
+    assert_int_equal(run_beads(beads, 2, &options, &result, NULL), FST_INTERRUPTED);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_apart),         cmocka_unit_test(test_walker),
+        cmocka_unit_test(test_bar),           cmocka_unit_test(test_other_walkers),
+        cmocka_unit_test(test_ejected),       cmocka_unit_test(test_moments),
+        cmocka_unit_test(test_refused),       cmocka_unit_test(test_interrupted),
+        cmocka_unit_test(test_opposite_pair), cmocka_unit_test(test_contacts_that_open_together),
+        cmocka_unit_test(test_border),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,304 @@
+"""Figures of sweeps: positions, units and scales of what is drawn, read from the data beside the figure.
+
+tests: draw/figure_sweep.c draw/figure_sweep_axes.c draw/figure_sweep_curves.c draw/figure_sweep_map.c
+  draw/quantity.c sweep/table.c"""
+
+import csv
+import io
+import math
+import os
+import re
+import shutil
+import signal
+import sys
+import unittest
+
+import events
+from sweep_tools import FESTOON, SHORT, Case, change, content_of, festoon
+
+GAMMA, HALF_LENGTH = 312.5, 23e-3
+
+
+def words(script):
+    """All texts of a figure in their order; a text that takes several lines is one again."""
+    return " ".join(re.findall(r"set label '(.*?)' at ", script))
+
+
+class Figures(Case):
+    def sweep(self, name, *over):
+        axes = [word for axis in over for word in ("--over", axis)]
+        self.good("sweep", *SHORT, *axes, "-o", self.path(name))
+        return list(csv.DictReader(io.StringIO(self.rows(name))))
+
+    def plot(self, name, *options):
+        """The script and the data blocks, {name: [[number]]}."""
+        self.good("plot", self.path(name), *options, "-o", self.path("figure.svg"))
+        self.assertIn("<svg", content_of(self.path("figure.svg"), "r")[:2000])
+        blocks = {}
+        for text in content_of(self.path("figure.dat"), "r").split("\n\n\n"):
+            name, _, *lines = text.strip("\n").split("\n")
+            blocks[name[2:]] = [[float(word) for word in line.split()] for line in lines if line]
+        return content_of(self.path("figure.gp"), "r"), blocks
+
+    def cells(self, name, *options):
+        """Each cell of a heat map: x, y, x_low, x_high, y_low, y_high, value."""
+        script, blocks = self.plot(name, *options)
+        return script, blocks["cells"]
+
+
+class Maps(Figures):
+    def test_cells_of_an_even_map(self):
+        rows = self.sweep("a.db", "drive.frequency=9Hz:12Hz:4", "model.kappa=1:2:3")
+        script, cells = self.cells("a.db", "--key", "mean_r")
+        self.assertEqual(len(cells), 12)
+        for row, cell in zip(rows, cells):
+            kappa, frequency = float(row["model.kappa"]), float(row["drive.frequency"])
+            self.assertAlmostEqual(cell[0], kappa, 6)
+            self.assertAlmostEqual(cell[1], frequency, 6)
+            self.assertAlmostEqual(cell[2], kappa - 0.25, 6)
+            self.assertAlmostEqual(cell[4], frequency - 0.5, 6)
+            self.assertTrue(0 <= cell[3] - (kappa + 0.25) < 0.005)  # boxes overlap by a pixel
+            self.assertTrue(0 <= cell[5] - (frequency + 0.5) < 0.01)
+            self.assertAlmostEqual(cell[6], 1e3 * HALF_LENGTH * float(row["mean_r"]), 5)
+        self.assertIn("set xrange [0.75:2.25]", script)
+        self.assertIn("set label 'drive frequency (Hz)'", script)
+        self.assertIn("set label 'mean radius ⟨r⟩ (mm)'", script)
+        self.assertIn("Mean radius ⟨r⟩ over magnetic strength κ and drive frequency", words(script))
+        self.assertNotIn("\nset logscale", script)
+
+    def test_logarithmic_cells_meet_at_geometric_means(self):
+        self.sweep("a.db", "drive.frequency=8Hz:32Hz:3:log", "model.kappa=0.5:2:3:log")
+        script, cells = self.cells("a.db", "--key", "max_r")
+        self.assertIn("set logscale x", script)
+        self.assertIn("set logscale y", script)
+        for x, y, x_low, x_high, y_low, y_high, _ in cells:
+            self.assertAlmostEqual(x_low / (x / math.sqrt(2)), 1, 6)
+            self.assertAlmostEqual(y_low / (y / math.sqrt(2)), 1, 6)
+            self.assertTrue(1 - 1e-6 < x_high / (x * math.sqrt(2)) < 1.004)
+            self.assertTrue(1 - 1e-6 < y_high / (y * math.sqrt(2)) < 1.004)
+
+    def test_lists_are_sorted_and_repeated_values_drawn_once(self):
+        rows = self.sweep("a.db", "start.r=0.9,0.5,0.7,0.5", "model.kappa=3,1,2")
+        _, cells = self.cells("a.db", "--key", "mean_b")
+        wanted = {(float(row["model.kappa"]), float(row["start.r"])): float(row["mean_b"]) for row in rows}
+        self.assertEqual(len(cells), 9)
+        self.assertEqual([cell[0] for cell in cells], [1, 2, 3] * 3)
+        self.assertEqual([cell[1] for cell in cells], [0.5] * 3 + [0.7] * 3 + [0.9] * 3)
+        for cell in cells:
+            self.assertAlmostEqual(cell[6], wanted[cell[0], cell[1]], 6)
+
+    def test_falling_axes_are_drawn_rising(self):
+        self.sweep("a.db", "drive.frequency=12Hz:9Hz:4", "model.kappa=2:1:3")
+        script, cells = self.cells("a.db", "--key", "mean_b")
+        self.assertIn("set xrange [0.75:2.25]\n", script)
+        self.assertTrue(all(cell[2] < cell[3] and cell[4] < cell[5] for cell in cells))
+
+    def test_both_signs_get_a_palette_about_zero(self):
+        self.sweep("a.db", "drive.frequency=3Hz:20Hz:2", "model.kappa=1,2")
+        script, cells = self.cells("a.db", "--key", "mean_alpha_dot")
+        greatest = max(abs(cell[6]) for cell in cells)
+        low, high = script.split("set cbrange [")[1].split("]")[0].split(":")
+        self.assertEqual(float(low), -float(high))
+        self.assertAlmostEqual(float(high), greatest, 5)
+        self.assertNotIn("cbrange", self.cells("a.db", "--key", "mean_r")[0])
+
+    def test_regimes(self):
+        rows = self.sweep("a.db", "drive.frequency=1Hz:20Hz:3", "model.kappa=1:2:4")
+        script, blocks = self.plot("a.db")
+        drawn = {name for name in blocks if name.startswith("cells-")}
+        found = {row["regime"] for row in rows}
+        self.assertEqual(len(drawn), len(found))
+        for regime in found:
+            self.assertIn(f"set label '{regime}'", script)
+        # Neighbours of one regime are one box: together the boxes cover the map once.
+        area = sum((round(box[3], 2) - box[2]) * (round(box[5], 2) - box[4]) for name in drawn for box in blocks[name])
+        self.assertLess(abs(area / (28.5 * 4 / 3) - 1), 0.02)
+
+    def test_choices_are_named(self):
+        self.sweep("a.db", "model.dynamics=rigid,farago2020", "drive.frequency=10,12")
+        script, _ = self.cells("a.db", "--key", "mean_r")
+        self.assertIn("set ytics ('rigid' 0, 'farago2020' 1)", script)
+        # Choices between those that were swept have no place.
+        laws = ["viscous", "rolling"]
+        self.sweep("b.db", "friction.law=" + ",".join(laws), "drive.frequency=10,12")
+        script, cells = self.cells("b.db", "--key", "mean_r")
+        self.assertIn("set ytics ('viscous' 0, 'rolling' 1)", script)
+        self.assertEqual(sorted({cell[1] for cell in cells}), [0, 1])
+        self.sweep("c.db", "friction.law=coulomb,viscous")
+        script, blocks = self.plot("c.db", "--key", "mean_r")
+        self.assertIn("set xtics ('viscous' 0, 'coulomb' 1)", script)
+        self.assertEqual([x for x, _ in blocks["panel1-curve1"]], [1, 0])
+
+    def test_only_figures_that_can_be_made_are_named(self):
+        """What the end of a sweep recommends is done, with one axis to three."""
+        axes = ["drive.frequency=9,10", "model.kappa=1,2", "start.r=0.5,0.6"]
+        for case in (axes[:1], axes[:2], axes, ["model.kappa=1"], ["start.r=0.5:1:random:4", "start.phi=0:90:random:4"]):
+            path = self.path(f"named{len(case)}-{len(case[0])}.db")
+            said = self.good("sweep", *SHORT, *[word for axis in case for word in ("--over", axis)], "-o", path)
+            status, _, err = festoon("plot", path, "-o", self.path("named.svg"))
+            self.assertEqual((status == 0), "festoon plot" in said, (case, err))
+            self.assertIn(f"festoon export {path} --csv prints the rows", said)
+
+    def test_points_without_a_value_are_counted(self):
+        self.sweep("a.db", "drive.frequency=3Hz:20Hz:3", "model.kappa=1,2")
+        script, cells = self.cells("a.db", "--key", "period")
+        self.assertTrue(0 < len(cells) < 6, cells)
+        self.assertIn(f"white: {6 - len(cells)} of 6 points", words(script))
+
+    def test_what_is_refused(self):
+        self.sweep("r.db", "start.r=0.5:1:random:4", "start.phi=0:90:random:4")
+        self.assertIn("random points", self.refused("plot", self.path("r.db"), "-o", self.path("f.svg")))
+        self.sweep("g.db", "friction.gamma=300,310", "drive.frequency=10,12")
+        for options in (["--units", "scaled"], ["--units", "lab", "--key", "mean_alpha_dot"]):
+            self.assertIn("friction.gamma", self.refused("plot", self.path("g.db"), *options, "-o", self.path("f.svg")))
+        self.good("plot", self.path("g.db"), "--units", "lab", "--key", "mean_r", "-o", self.path("f.svg"))
+        self.refused("plot", self.path("g.db"), "--units", "imperial", "-o", self.path("f.svg"))
+        self.sweep("one.db", "drive.frequency=10,10,10")
+        self.plot("one.db")  # a range of one value
+        for word, told in (("lap", "the nearest is lab"), ("SI", "the nearest is si"), ("", "choose one of given, lab")):
+            self.assertIn(told, self.refused("plot", self.path("one.db"), "--units", word, "-o",
+                                                     self.path("no.svg")))
+        self.assertFalse(os.path.exists(self.path("no.svg")))
+
+
+class Units(Figures):
+    def test_drive_and_lengths(self):
+        self.sweep("f.db", "drive.frequency=10Hz:12Hz:3", "start.r=0.5,0.9")
+        self.sweep("o.db", "drive.omega=0.2:0.24:3", "start.r=0.5,0.9")
+        hertz = GAMMA / (2 * math.pi)
+        script, cells = self.cells("f.db", "--key", "mean_r", "--units", "scaled")
+        self.assertIn("set label 'drive ω (γ)'", script)
+        self.assertAlmostEqual(cells[0][1], 10 / hertz, 6)
+        self.assertAlmostEqual(cells[1][0], 0.9, 6)
+        length = cells[0][6]
+        script, cells = self.cells("f.db", "--key", "mean_r", "--units", "lab")
+        self.assertIn("set label 'r at the start (mm)'", script)
+        self.assertIn("set label 'mean radius ⟨r⟩ (mm)'", script)
+        self.assertAlmostEqual(cells[1][0], 0.9 * 1e3 * HALF_LENGTH, 5)
+        self.assertAlmostEqual(cells[0][6], length * 1e3 * HALF_LENGTH, 4)
+        script, cells = self.cells("o.db", "--key", "mean_alpha_dot", "--units", "lab")
+        self.assertIn("set label 'drive frequency (Hz)'", script)
+        self.assertAlmostEqual(cells[0][1], 0.2 * hertz, 5)
+        self.assertIn("set label 'bead''s circling ⟨α′⟩/2π (Hz)'", script)
+        self.assertAlmostEqual(cells[0][6] / self.cells("o.db", "--key", "mean_alpha_dot")[1][0][6], hertz, 3)
+        for key, unit, factor in (("max_slip", "mm/s", 1e3 * HALF_LENGTH * GAMMA), ("end_time", "s", 1 / GAMMA)):
+            script, cells = self.cells("o.db", "--key", key, "--units", "lab")
+            self.assertIn(f"({unit})", script)
+            self.assertLess(abs(cells[0][6] / self.cells("o.db", "--key", key)[1][0][6] / factor - 1), 1e-6)
+
+    def test_metres_become_half_lengths(self):
+        self.sweep("m.db", "magnet.depth=15mm:17mm:3", "bead.radius=2mm,3mm")
+        self.assertEqual([round(cell[0], 6) for cell in self.cells("m.db", "--key", "mean_r")[1]], [2, 3] * 3)
+        cells = self.cells("m.db", "--key", "mean_r", "--units", "scaled")[1]
+        self.assertAlmostEqual(cells[0][0], 2 / 23, 6)
+        self.assertAlmostEqual(cells[0][1], 15 / 23, 6)
+
+    def test_curves(self):
+        rows = self.sweep("c.db", "drive.omega=0.2:0.8:5:log")
+        script, blocks = self.plot("c.db", "--key", "mean_r,rms_slip", "--units", "lab")
+        self.assertIn("set logscale x\n", script)
+        self.assertIn("set logscale x2\n", script)
+        for row, (x, y) in zip(rows, blocks["panel1-curve1"]):
+            self.assertLess(abs(x / (float(row["drive.omega"]) * GAMMA / (2 * math.pi)) - 1), 1e-6)
+            self.assertLess(abs(y / (float(row["mean_r"]) * 23) - 1), 1e-6)
+
+    def test_regimes_have_one_colour_in_all_panels(self):
+        rows = self.sweep("c.db", "drive.omega=0.04,0.2,0.22,0.24")
+        script, blocks = self.plot("c.db")
+        entries = re.findall(r"'(panel\d)-(curve\d)'.* lc rgb '(#\w+)' notitle", script)
+        colours = [colour for panel, _, colour in entries if panel == "panel3"]
+        self.assertGreater(len(colours), 1)
+        self.assertEqual(len(set(colours)), len(colours))
+        self.assertEqual([colour for _, _, colour in entries], colours * 3)
+        # The key has one entry for each regime, in the colours of the panels.
+        keyed = re.findall(r"data index 'key\d+'.* lc rgb '(#\w+)' notitle", script)
+        self.assertEqual(keyed, colours)
+        names = [name for name in re.findall(r"set label '([\w-]+)' at \S+ left front", script)]
+        self.assertEqual(sorted(names), sorted({row["regime"] for row in rows}))
+        for panel, key in enumerate(("mean_r", "std_r", "mean_alpha_dot"), 1):
+            for curve, regime in enumerate(names, 1):
+                drawn = [y for _, y in blocks[f"panel{panel}-curve{curve}"] if math.isfinite(y)]
+                wanted = [float(row[key]) for row in rows if row["regime"] == regime]
+                self.assertEqual(len(drawn), len(wanted))
+                for one, other in zip(drawn, wanted):
+                    self.assertAlmostEqual(one, other, 6)
+
+    def test_names_stand_in_the_place_of_numbers(self):
+        self.sweep("c.db", "drive.frequency=2,10,20")
+        script, blocks = self.plot("c.db", "--key", "regime")
+        names = dict((name, int(value)) for name, value in re.findall(r"'([\w-]+)' (\d)", script.split("set ytics (")[1]
+                                                                       .split(")")[0]))
+        rows = csv.DictReader(io.StringIO(self.rows("c.db")))
+        self.assertEqual([y for _, y in blocks["panel1-curve1"]], [names[row["regime"]] for row in rows])
+
+    def test_keys_without_values(self):
+        self.sweep("c.db", "drive.frequency=10,11,12")
+        script, blocks = self.plot("c.db", "--key", "mean_r,largest_exponent,min_b")
+        self.assertIn("no value of: largest Lyapunov exponent (1/s)", words(script))
+        self.assertEqual(sorted(name for name in blocks if name.startswith("panel")), ["panel1-curve1", "panel2-curve1"])
+        self.assertIn("no point", self.refused("plot", self.path("c.db"), "--key", "largest_exponent", "-o",
+                                               self.path("f.svg")))
+        self.sweep("m.db", "drive.frequency=19,20", "model.kappa=1.5,1.6")
+        self.assertIn("no point", self.refused("plot", self.path("m.db"), "--key", "largest_exponent", "-o",
+                                               self.path("f.svg")))
+
+
+class ManyPoints(Figures):
+    """More points than a figure can show: some are drawn, and the title says how many."""
+
+    def fill(self, name, points, value, *over):
+        """Makes a sweep with invented rows: mean_r is this expression of the point i."""
+        axes = [word for axis in over for word in ("--over", axis)]
+        # Replaces all rows by invented ones.
+        events.signal_when([FESTOON, "sweep", *SHORT, *axes, "-o", self.path(name)],
+                           lambda: events.rows(self.path(name)), signal.SIGINT)
+        change(self.path(name), "DELETE FROM rows", (
+            "WITH RECURSIVE c(i) AS (SELECT 0 UNION ALL SELECT i + 1 FROM c WHERE i < ?) "
+            f"INSERT INTO rows(point, status, regime, mean_r) SELECT i, 'done', 'locked', {value} FROM c",
+            (points - 1,)))
+
+    def test_curves(self):
+        self.fill("c.db", 100001, "0.5 + i", "drive.frequency=0.1Hz:100.1Hz:100001")
+        script, blocks = self.plot("c.db", "--key", "mean_r,regime")
+        self.assertIn("one point of 11", words(script))
+        drawn = blocks["panel1-curve1"]
+        self.assertEqual(len(drawn), 9091)
+        for i, (x, y) in enumerate(drawn):
+            self.assertAlmostEqual(x, 0.1 + 0.001 * 11 * i, 6)
+            self.assertLess(abs(y / (23 * (0.5 + 11 * i)) - 1), 1e-6)
+
+    def test_maps(self):
+        self.fill("m.db", 2050 * 10, "i", "model.kappa=1:10:10", "drive.frequency=1Hz:206Hz:2050")
+        script, cells = self.cells("m.db", "--key", "mean_r")
+        self.assertIn("one point of 1 x 3", words(script))
+        self.assertEqual(len(cells), 10 * 684)
+        for i, cell in enumerate(cells):
+            row, column = divmod(i, 684)
+            self.assertLessEqual(abs(cell[6] - 23 * (row * 2050 + 3 * column)), 1e-6 * cell[6])
+            self.assertAlmostEqual(cell[1], 1 + row, 6)
+        script, blocks = self.plot("m.db")
+        self.assertEqual(len(blocks["cells-1"]), 10)  # one box for each row: all are locked
+
+
+class Words(Figures):
+    def test_only_the_last_panel_names_the_choices(self):
+        self.sweep("w.db", "model.dynamics=rigid,farago2020")
+        script, _ = self.plot("w.db", "--key", "mean_r,std_r,mean_nz")
+        tics = [line for line in script.split("\n") if line.startswith("set xtics (")]
+        self.assertEqual(tics, 2 * ["set xtics ('' 0, '' 1)"] + ["set xtics ('rigid' 0, 'farago2020' 1)"])
+
+
+class Paths(Figures):
+    def test_a_zoom_beside_the_path(self):
+        self.good("run", *SHORT, "-o", self.path("t.csv"))
+        zoom = ("plot", self.path("t.csv"), "-o", self.path("t.svg"), "--zoom")
+        self.assertIn("outside of the path", self.refused(*zoom, "500,600,0,20"))
+        self.assertFalse(os.path.exists(self.path("t.svg")))
+        self.plot("t.csv", "--zoom", "0,30,0,30")
+
+
+if __name__ == "__main__":
+    if not shutil.which("gnuplot"):
+        print("skipped: no gnuplot (gnuplot-nox)")
+        sys.exit(77)
+    unittest.main()

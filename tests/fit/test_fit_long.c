@@ -1,0 +1,153 @@
+/* The coverage of the errors of a fit: of a hundred tables with known noise about 68 must give each parameter
+ * within one standard deviation, and about 68 within the profile's interval.  A wild number in each of fifty
+ * changes nothing of it.
+ * tests: fit/fit.c fit/errors.c fit/bootstrap.c
+ * labels: long slow */
+#include "numeric.h"
+#include "fit_tables.h"
+
+#include <stdio.h>
+
+enum { FITS = 100, WILD_FITS = 50, ROWS = 5 };
+
+static const char *const keys[] = {"model.kappa", "friction.gamma"};
+
+/* How often the truth lay within one standard deviation, two, and the interval; for kappa, gamma, kappa
+ * gamma^2. */
+typedef struct coverage {
+    int one[3], two[3], interval[2], outliers, named;
+    double chi2;
+} coverage;
+
+static void count(coverage *c, const fst_fit *fit, const double *truth)
+{
+    const double value[] = {fit->parameters[0].value, fit->parameters[1].value, fit->kappa_gamma2};
+    const double error[] = {fit->parameters[0].error, fit->parameters[1].error, fit->kappa_gamma2_error};
+    for (int i = 0; i < 3; ++i) {
+        c->one[i] += fabs(value[i] - truth[i]) < error[i];
+        c->two[i] += fabs(value[i] - truth[i]) < 2.0 * error[i];
+    }
+    for (int i = 0; i < 2; ++i)
+        c->interval[i] +=
+            fit->parameters[i].interval[0] < truth[i] && truth[i] < fit->parameters[i].interval[1];
+    c->outliers += (int)fit->outlier_count;
+    c->chi2 += fit->chi2 / fit->dof;
+}
+
+static coverage fit_many(const fst_params *truth_params, int fits, int wild)
+{
+    const fst_params start = fst_default_params();
+    const double strength = truth_params->model_kappa * pow(truth_params->friction_gamma, 2.0);
+    const double truth[] = {truth_params->model_kappa, truth_params->friction_gamma, strength};
+    coverage c = {0};
+    uint64_t seed = 7;
+    fst_points exact, noisy;
+    assert_true(fit_table(truth_params, 10.5, 19.5, ROWS, &exact));
+    noisy = exact;
+    noisy.rows = calloc(ROWS, sizeof *noisy.rows);
+    fst_fit_options options = fst_default_fit_options();
+    options.free = keys;
+    options.free_count = 2;
+    for (int i = 0; i < fits; ++i) {
+        fst_fit fit;
+        fst_error error;
+        memcpy(noisy.rows, exact.rows, ROWS * sizeof *exact.rows);
+        fit_add_noise(&noisy, &seed);
+        const int row = i % ROWS, what = i % FST_MEASURED_COUNT;
+        if (wild)
+            noisy.rows[row].value[what] += (i % 2 ? 20.0 : -20.0) * noisy.rows[row].error[what];
+        if (fst_fit_points(&start, &noisy, &options, &fit, &error) != FST_OK)
+            fail_msg("fit %d: %s: %s", i, error.where, error.sentence);
+        count(&c, &fit, truth);
+        for (size_t k = 0; k < fit.outlier_count; ++k)
+            c.named += fit.outliers[k].line == row + 2 && (int)fit.outliers[k].what == what;
+        fst_fit_free(&fit);
+    }
+    free(noisy.rows);
+    free(exact.rows);
+    (void)printf(
+        "within one: %d %d %d, two: %d %d %d, interval: %d %d, outliers %d (wild ones %d), chi^2/dof %.3f\n",
+        c.one[0], c.one[1], c.one[2], c.two[0], c.two[1], c.two[2], c.interval[0], c.interval[1], c.outliers,
+        c.named, c.chi2 / fits);
+    return c;
+}
+
+/* So many of 68.3 % come in 998 of 1000 samples of that size, and at least so many of 95.4 % in 999. */
+typedef struct bounds {
+    int fits, fewest, most, fewest_of_two;
+} bounds;
+
+static void check(const coverage *c, const bounds *of)
+{
+    for (int i = 0; i < 3; ++i) {
+        assert_in_range(c->one[i], of->fewest, of->most);
+        assert_in_range(c->two[i], of->fewest_of_two, of->fits);
+    }
+    for (int i = 0; i < 2; ++i)
+        assert_in_range(c->interval[i], of->fewest, of->most);
+}
+
+static void test_coverage(void **state)
+{
+    (void)state;
+    fst_params params = fst_default_params();
+    params.model_kappa = 1.4;
+    params.friction_gamma = 330.0;
+    const coverage c = fit_many(&params, FITS, 0);
+    check(&c, &(bounds){FITS, 54, 82, 88});
+    assert_in_range(c.outliers, 0, 2);
+    assert_true(c.chi2 / FITS > 0.85 && c.chi2 / FITS < 1.15);
+}
+
+static void test_coverage_beside_a_wild_number(void **state)
+{
+    (void)state;
+    fst_params params = fst_default_params();
+    params.model_kappa = 1.8;
+    params.friction_gamma = 270.0;
+    const coverage c = fit_many(&params, WILD_FITS, 1);
+    check(&c, &(bounds){WILD_FITS, 24, 43, 42});
+    assert_int_equal(c.named, WILD_FITS);
+    assert_in_range(c.outliers, WILD_FITS, WILD_FITS + 2);
+}
+
+/* A lost minus makes a number wrong by a thousand errors: it drags the plain search far away, and the robust
+ * one must find back without it. */
+static void test_lost_sign_beside_a_wild_number(void **state)
+{
+    (void)state;
+    const fst_params start = fst_default_params();
+    fst_params params = start;
+    fst_points points;
+    fst_fit fit;
+    fst_error error;
+    params.model_kappa = 1.6;
+    params.friction_gamma = 300.0;
+    assert_true(fit_table(&params, 10.7, 19.9, 8, &points));
+    points.rows[3].value[FST_MEASURED_MEAN_R] += 3e-3;
+    points.rows[6].value[FST_MEASURED_BEAD_FREQUENCY] *= -1.0;
+    fst_fit_options options = fst_default_fit_options();
+    options.free = keys;
+    options.free_count = 2;
+    if (fst_fit_points(&start, &points, &options, &fit, &error) != FST_OK)
+        fail_msg("%s: %s", error.where, error.sentence);
+    assert_int_equal(fit.outlier_count, 2);
+    assert_true(fit.outliers[0].line == 5 && fit.outliers[0].what == FST_MEASURED_MEAN_R);
+    assert_true(fit.outliers[1].line == 8 && fit.outliers[1].what == FST_MEASURED_BEAD_FREQUENCY);
+    assert_true(fabs(fit.parameters[0].value / params.model_kappa - 1.0) < 1e-4);
+    assert_true(fabs(fit.parameters[1].value / params.friction_gamma - 1.0) < 1e-4);
+    fst_fit_free(&fit);
+    free(points.rows);
+}
+
+int main(void)
+{
+    if (!fst_fit_present() || !fst_lapack_present())
+        return 77;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_coverage),
+        cmocka_unit_test(test_coverage_beside_a_wild_number),
+        cmocka_unit_test(test_lost_sign_beside_a_wild_number),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

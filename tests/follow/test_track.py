@@ -1,0 +1,133 @@
+"""`festoon movie --camera` and `festoon track` on a short film of few pixels: places and times against the truth, scales,
+names of files, and what cannot be tracked.  More: test_track_long.py.
+
+Without ffmpeg the test is skipped.
+
+tests: follow/follow.c follow/decoder.c follow/source.c follow/learn.c follow/bead.c cli/track.c cli/camera.c"""
+
+import math
+import os
+import shutil
+import sys
+import unittest
+
+import films
+from films import SMALL, compare, ffmpeg, run
+
+if not films.can_film():
+    sys.exit(77)
+
+
+class Track(films.OnFilms):
+    def test_places_and_times(self):
+        """Within 0.3 pixels of the truth, none lost, y up, rows and times those of the film."""
+        out, done = self.track(self.folder / "a.mp4")
+        names, rows = films.read(out)
+        self.assertEqual(names, ["frame", "t [s]", "x [px]", "y [px]"])
+        found = compare(out, self.folder / "a.truth.csv")
+        self.assertLess(found["rms"], 0.3)
+        self.assertLess(found["offset"], 0.5)
+        self.assertEqual((found["lost"], found["rows"]), (0, found["true_rows"]))
+        for i, row in enumerate(rows):
+            self.assertEqual(row[0], i)
+            self.assertAlmostEqual(row[1], i / 240, places=9)
+        self.assertIn(f"frames      {len(rows)}, 240 a second", done.stdout)
+        self.assertIn("lost        0\n", done.stdout)
+
+    def test_millimetres(self):
+        """By the plate's edge and by four marks of a tilted plate: lengths within half a percent.  The bead's own
+        diameter, nine pixels here, gives them within half a pixel."""
+        marks = self.facts.split('marks        "')[1].split('"')[0]
+        distance = self.facts.split("seen from ")[1].split(",")[0]
+        for scale in ("plate 120 mm", marks):
+            found = compare(self.track(self.folder / "a.mp4", "--scale", scale, "--distance", distance)[0],
+                            self.folder / "a.truth.csv")
+            self.assertLess(found["rms"], 0.15)
+            self.assertAlmostEqual(found["ratio"], 1.0, delta=0.005)
+        out = self.track(self.folder / "a.mp4", "--scale", "bead 5 mm")[0]
+        self.assertEqual(films.read(out)[0][2:], ["x [mm]", "y [mm]"])
+        self.assertAlmostEqual(compare(out, self.folder / "a.truth.csv")["ratio"], 1.0, delta=0.07)
+        pixels = films.read(self.track(self.folder / "a.mp4")[0])[1]
+        two = films.read(self.track(self.folder / "a.mp4", "--scale", "10,20:110,20=50mm", "--fps", "30")[0])[1]
+        for a, b in zip(pixels, two):
+            self.assertAlmostEqual(b[1], a[0] / 30, places=9)
+            self.assertAlmostEqual(b[2], 0.5 * a[2], places=9)
+            self.assertAlmostEqual(b[3], 0.5 * a[3], places=9)
+
+    def test_lists_of_other_files_are_no_films(self):
+        """A playlist that names a film is not followed."""
+        for name, text in (("x.m3u8", f"#EXTM3U\n#EXTINF:1,\nfile://{self.folder}/a.mp4\n"),
+                           ("y.mp4", f"ffconcat version 1.0\nfile {self.folder}/a.mp4\n"), ("z.mp4", "hello\n")):
+            (self.folder / name).write_text(text)
+            self.refused(self.folder / name, "no film")
+        self.refused(self.folder / "nowhere.mp4", "No such file")
+        self.refused("/dev/zero", "regular file")
+        (self.folder / "empty").mkdir()
+        self.refused(self.folder / "empty", "no images")
+
+    def test_what_is_not_understood(self):
+        good = self.folder / "a.mp4"
+        self.refused(good, "--scale|unit", "--scale", "bead 5")
+        self.refused(good, "--scale|plate 460 mm", "--scale", "disc 5 mm")
+        self.refused(good, "--scale|outside", "--scale", "1,2:3,4000=5mm")
+        self.refused(good, "--distance|mm", "--scale", "plate 120 mm", "--distance", "1mm")
+        self.refused(good, "--distance|more than 0", "--distance", "-3mm")
+        self.refused(good, ".png", "--picture", self.folder / "x.jpg")
+        self.refused(good, ".mp4", "--overlay", self.folder / "x.avi")
+        self.refused(good, "cannot write", "--overlay", self.folder / "nowhere" / "x.mp4", status=1)
+        done = run("track", good, "-o", self.folder / "nowhere" / "x.csv", "--overlay", self.folder / "left.mp4")
+        self.assertEqual(done.returncode, 1)
+        self.assertFalse((self.folder / "left.mp4").exists())
+        done = run("track", good, "-o", self.folder / "x.csv", env={**os.environ, "PATH": "/nowhere"})
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("install the package ffmpeg", done.stderr)
+
+    def test_camera_options(self):
+        """What a camera cannot do is refused, and options of one kind of film do not go with the other."""
+        for options, words in ((("--exposure", "5ms"), "longer than a frame"), (("--exposure", "soon"), "1/500s"),
+                               (("--tilt", "80deg"), "0 to 60"), (("--size", "321x240"), "even"),
+                               (("--plate", "10mm"), "needs a plate"), (("--drop", "1"), "from 2"),
+                               (("--turn", "2"), "no meaning with --camera"), (("--from", "90"), "no samples"),
+                               (("--quality", "77"), "0 to 51")):
+            done = run("movie", self.path, "-o", self.folder / "no.mp4", "--camera", *options)
+            self.assertEqual(done.returncode, 2, (options, done.stderr))
+            self.assertIn(words, done.stderr)
+        done = run("movie", self.path, "-o", self.folder / "no.mp4", "--tilt", "5deg")
+        self.assertIn("--tilt needs --camera", done.stderr)
+        self.assertFalse((self.folder / "no.mp4").exists())
+        self.assertFalse((self.folder / "no.truth.csv").exists())
+
+    def test_truth(self):
+        """The truth is the trajectory: at the middle of each exposure."""
+        films.film(self.path, self.folder / "e.mp4", *SMALL, "--to", "0.5", "--exposure", "1/1000s")
+        lines = [line for line in self.path.read_text().splitlines() if not line.startswith("#")]
+        names = [name.split()[0].split("(")[0] for name in lines[0].split(",")]
+        rows = [dict(zip(names, map(float, line.split(",")))) for line in lines[1:]]
+        gamma = [line for line in self.path.read_text().splitlines() if "gamma:" in line][0]
+        rate = float(gamma.split("gamma:")[1].split()[0])
+        for frame, t, x, y, *_ in films.read(self.folder / "e.truth.csv")[1]:
+            self.assertAlmostEqual(t, frame / 240, places=8)
+            now = (t + 0.0005) * rate
+            i = max(k for k, row in enumerate(rows) if row["t"] <= now)
+            part = (now - rows[i]["t"]) / (rows[i + 1]["t"] - rows[i]["t"])
+            for key, value in (("x", x), ("y", y)):
+                between = rows[i][key] + part * (rows[i + 1][key] - rows[i][key])
+                self.assertTrue(math.isclose(23.0 * between, value, abs_tol=0.1), (frame, key))
+
+    def test_names_are_only_names(self):
+        """A name that ffmpeg could take for an option, a pattern or a protocol; names of files to write."""
+        name = "-i concat:a%d 'q\"\n|x.mp4"
+        shutil.copy(self.folder / "a.mp4", self.folder / name)
+        done = run("track", "-o", "o%d.csv", "--overlay", "v%d.mp4", "--picture", "p%d.png", "--", name, cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn(b"ftyp", (self.folder / "v%d.mp4").read_bytes()[:12])
+        self.assertEqual((self.folder / "p%d.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertEqual(compare(self.folder / "o%d.csv", self.folder / "a.truth.csv")["lost"], 0)
+
+    def test_no_bead(self):
+        ffmpeg("-f", "lavfi", "-i", "color=gray:s=160x120:d=1,noise=alls=8", self.folder / "blank.mp4")
+        self.refused(self.folder / "blank.mp4", "no bead was found|gray levels")
+
+
+if __name__ == "__main__":
+    unittest.main()

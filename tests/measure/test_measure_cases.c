@@ -1,0 +1,335 @@
+/* fst_measure_track() on films of beads that the library moves: each kind of motion, and each fault of a film,
+ * with what must come out; and the coverage of errors over a few films (test_measure_coverage.c has many).
+ * tests: measure/measure.c measure/clean.c measure/geometry.c measure/spectrum.c measure/drive.c
+ *   measure/errors.c measure/sharpen.c measure/regress.c tracks/track.c */
+#include "measure_coverage.h"
+
+/* The settled motion at a drive, followed for so many seconds. */
+static made_motion motion_at(double hertz, double seconds)
+{
+    made_motion motion;
+    fst_params params = fst_default_params();
+    params.drive_frequency = hertz;
+    params.run_periods = ceil((seconds + 1.0) * hertz) + 150.0;
+    params.run_discard = 150.0;
+    params.run_rtol = 1e-9;
+    made_motion_follow(&motion, &params);
+    return motion;
+}
+
+static fst_measurement measured(const made_motion *motion, const made_film *film, double drive, double exposure,
+                                fst_track *track)
+{
+    fst_measure_options options = fst_default_measure_options();
+    fst_measurement m;
+    fst_error error = {FST_OK, "", ""};
+    options.drive = drive;
+    options.exposure = exposure;
+    made_track(motion, film, track);
+    if (fst_measure_track(track, &options, &m, &error) != FST_OK)
+        fail_msg("%s", error.sentence);
+    return m;
+}
+
+static int warned(const fst_measurement *m, const char *word)
+{
+    int found = 0;
+    for (int i = 0; i < m->warning_count; ++i)
+        found |= strstr(m->warnings[i], word) != NULL;
+    return found;
+}
+
+static void assert_near(double found, double error, double truth)
+{
+    if (!(fabs(found - truth) < 4.0 * error))
+        fail_msg("%.9g +- %.3g, but the truth is %.9g", found, error, truth);
+}
+
+static void assert_as(const fst_measurement *m, const made_motion *motion, double scale)
+{
+    assert_near(m->mean_r, m->mean_r_error, scale * motion->mean_r);
+    assert_near(m->std_r, m->std_r_error, scale * motion->std_r);
+    assert_near(m->bead_frequency_hz, m->bead_frequency_hz_error, motion->bead);
+    assert_near(m->festoons, m->festoons_error, motion->festoons);
+    assert_near(m->drive_from_track_hz, m->drive_from_track_hz_error, motion->drive);
+}
+
+static void test_festoons(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; ++i) {
+        made_motion motion = motion_at(i ? 19.9 : 10.7, 6.0);
+        made_film film = made_film_plain();
+        fst_track track;
+        fst_measurement m = measured(&motion, &film, NAN, NAN, &track);
+        assert_as(&m, &motion, film.scale); /* without the drive: the track tells it */
+        assert_int_equal(m.symmetry, i ? 2 : 1);
+        assert_int_equal(m.motion, FST_MOTION_TURNING);
+        assert_near(m.noise, 0.02, film.noise);
+        assert_near(m.centre[0], 4 * m.centre_error[0], 640.0);
+        assert_near(m.centre[1], 4 * m.centre_error[1], 360.0);
+        fst_track_free(&track);
+
+        film.mirrored = 1; /* or filmed from below: then the magnet turns clockwise */
+        m = measured(&motion, &film, -motion.drive, NAN, &track);
+        assert_as(&m, &motion, film.scale);
+        assert_false(warned(&m, "mirrored"));
+        fst_track_free(&track);
+        m = measured(&motion, &film, motion.drive, NAN, &track);
+        assert_as(&m, &motion, film.scale); /* the festoons know better */
+        assert_true(warned(&m, "mirrored"));
+        fst_track_free(&track);
+        m = measured(&motion, &film, NAN, NAN, &track);
+        assert_true(isnan(m.festoons) && isnan(m.drive_from_track_hz) && m.warning_count > 0);
+        fst_track_free(&track);
+        made_motion_free(&motion);
+    }
+}
+
+/* So much noise that every second festoon could differ: N or 2 N are not told apart, nor is the symmetry. */
+static void test_unsure_festoons(void **state)
+{
+    (void)state;
+    made_motion motion = motion_at(19.9, 6.0);
+    made_film film = made_film_plain();
+    int known = 0, unknown = 0;
+    for (film.noise = 0.2; film.noise < 8.0; film.noise *= 1.5) {
+        fst_track track;
+        const fst_measurement m = measured(&motion, &film, motion.drive, NAN, &track);
+        assert_true(isfinite(m.festoons) == (m.symmetry == 2) && m.symmetry != 1);
+        known += m.symmetry == 2;
+        if (m.motion == FST_MOTION_TURNING && m.symmetry == 0) {
+            ++unknown;
+            assert_true(isnan(m.festoons_error) && isfinite(m.drive_from_track_hz));
+            assert_true(warned(&m, "there are 7.") && warned(&m, " festoons, or 14.") && warned(&m, "(S2)"));
+        }
+        fst_track_free(&track);
+    }
+    assert_true(known > 4 && unknown > 0);
+    made_motion_free(&motion);
+}
+
+static void test_clocks(void **state)
+{
+    (void)state;
+    made_motion motion = motion_at(10.7, 6.0);
+    made_film film = made_film_plain();
+    fst_track track;
+    film.clock = 8.0; /* 240 frames a second, stored as 30 */
+    fst_measurement m = measured(&motion, &film, motion.drive, NAN, &track);
+    assert_as(&m, &motion, film.scale);
+    assert_true(fabs(m.fps - 240.0) < 0.1 && fabs(track.fps - m.fps) < 1e-9);
+    assert_true(fabs(track.t[track.rows - 1] - track.t[0] - (double)(track.rows - 1) / 240.0) < 1e-3);
+    assert_true(warned(&m, "frame"));
+    fst_track_free(&track);
+    m = measured(&motion, &film, NAN, NAN, &track); /* without the drive nothing can be noticed */
+    assert_near(8.0 * m.drive_from_track_hz, 8.0 * m.drive_from_track_hz_error, motion.drive);
+    fst_track_free(&track);
+    film.clock = 1.3;
+    film.fps = 221.0; /* no camera has such a rate: the file's clock stays, and a warning says so */
+    m = measured(&motion, &film, motion.drive, NAN, &track);
+    assert_true(fabs(m.fps - 170.0) < 0.1 && warned(&m, "frame rate"));
+    fst_track_free(&track);
+
+    film.clock = 1.0; /* no clock at all */
+    film.fps = 240.0;
+    made_track(&motion, &film, &track);
+    for (int with_drive = 0; with_drive < 2; ++with_drive) {
+        fst_measure_options options = fst_default_measure_options();
+        fst_error error;
+        for (size_t i = 0; i < track.rows; ++i)
+            track.t[i] = NAN;
+        track.fps = NAN;
+        options.drive = with_drive ? motion.drive : NAN;
+        assert_int_equal(fst_measure_track(&track, &options, &m, &error), FST_OK);
+        assert_near(m.festoons, m.festoons_error, motion.festoons);
+        assert_near(m.mean_r, m.mean_r_error, film.scale * motion.mean_r);
+        if (with_drive)
+            assert_true(fabs(m.fps - 240.0) < 0.1);
+        else
+            for (int k = 0; k < fst_measured_count(); ++k) {
+                const fst_measured_info *info = fst_measured_at(k);
+                double value;
+                memcpy(&value, (const char *)&m + info->offset, sizeof value);
+                if (!isnan(value) && (strcmp(info->unit, "Hz") == 0 || strcmp(info->unit, "1/s") == 0))
+                    fail_msg("%s is %g %s, though there is no clock", info->name, value, info->unit);
+            }
+    }
+    fst_track_free(&track);
+    made_motion_free(&motion);
+}
+
+static void test_few_frames_a_second(void **state)
+{
+    (void)state;
+    made_motion motion = motion_at(19.9, 10.0);
+    made_film film = made_film_plain();
+    fst_track track;
+    film.fps = 60.0; /* r oscillates at 46 Hz */
+    film.seconds = 9.0;
+    fst_measurement m = measured(&motion, &film, motion.drive, NAN, &track);
+    assert_as(&m, &motion, film.scale);
+    assert_true(warned(&m, "alias"));
+    fst_track_free(&track);
+    film.fps = 46.1339; /* the festoons stand still */
+    m = measured(&motion, &film, motion.drive, NAN, &track);
+    assert_true(isnan(m.festoons) && warned(&m, "stand still"));
+    fst_track_free(&track);
+    film.fps = 240.0;
+    film.seconds = 1.5; /* five turns */
+    m = measured(&motion, &film, motion.drive, NAN, &track);
+    assert_true(isfinite(m.mean_r) && isnan(m.mean_r_error) && isnan(m.bead_frequency_hz_error) &&
+                warned(&m, "turns"));
+    assert_true(isfinite(m.festoons) && isnan(m.festoons_error) && isnan(m.drive_from_track_hz_error) &&
+                isnan(m.std_r_error) && isnan(m.tilt_deg_error));
+    fst_track_free(&track);
+    made_motion_free(&motion);
+}
+
+static void test_exposure(void **state)
+{
+    (void)state;
+    made_motion motion = motion_at(19.9, 8.0);
+    made_film film = made_film_plain();
+    fst_track track;
+    film.seconds = 7.0;
+    film.fps = 120.0;
+    film.exposure = 1.0 / 120;
+    fst_measurement m = measured(&motion, &film, motion.drive, NAN, &track);
+    const double angle = FST_PI * m.radial_frequency_hz / 120;
+    /* The shrinkage that a long exposure makes, about a fifth, to first order. */
+    assert_true(fabs(m.std_r / (film.scale * motion.std_r) - sin(angle) / angle) < 0.04);
+    assert_true(warned(&m, "exposure"));
+    fst_track_free(&track);
+    m = measured(&motion, &film, motion.drive, film.exposure, &track);
+    assert_as(&m, &motion, film.scale);
+    fst_track_free(&track);
+    made_motion_free(&motion);
+}
+
+static void test_tilt(void **state)
+{
+    (void)state;
+    made_motion motion = motion_at(19.9, 6.0);
+    made_film film = made_film_plain();
+    fst_track track;
+    static const double tilts[] = {0.0, 20.1, 45.0, 60.0};
+    for (int i = 0; i < 4; ++i) {
+        film.tilt = tilts[i];
+        film.along = 50.0 * i;
+        film.seed = (uint64_t)(i + 1);
+        const fst_measurement m = measured(&motion, &film, motion.drive, NAN, &track);
+        assert_as(&m, &motion, film.scale);
+        assert_near(m.tilt_deg, m.tilt_deg_error, film.tilt);
+        assert_true(fabs(m.mean_r / (film.scale * motion.mean_r) - 1.0) < 0.002);
+        fst_track_free(&track);
+    }
+    made_motion_free(&motion);
+}
+
+static void test_faults(void **state)
+{
+    (void)state;
+    made_motion motion = motion_at(10.7, 9.0);
+    made_film film = made_film_plain();
+    fst_track track;
+    film.seconds = 8.0;
+    film.lost = 0.3;
+    film.wild = 0.05;
+    film.tilt = 15.0;
+    const fst_measurement m = measured(&motion, &film, motion.drive, NAN, &track);
+    assert_as(&m, &motion, film.scale);
+    assert_true(fabs((double)m.lost / (double)m.frames - 0.335) < 0.03); /* missing ones and rejected ones */
+    assert_true(fabs((double)m.rejected / (double)m.frames - 0.035) < 0.015);
+    size_t flagged = 0;
+    for (size_t i = 0; i < track.rows; ++i)
+        flagged += track.flag[i] == FST_FRAME_REJECTED;
+    assert_int_equal(flagged, m.rejected);
+    fst_track_free(&track);
+    made_motion_free(&motion);
+}
+
+/* A bead that goes round with the magnet has the drive's frequency and no festoons. */
+static void test_locked(void **state)
+{
+    (void)state;
+    static const double drives[] = {3.0, 5.0}; /* locked; librating */
+    for (int i = 0; i < 2; ++i) {
+        made_motion motion = motion_at(drives[i], 8.0);
+        made_film film = made_film_plain();
+        fst_track track;
+        assert_int_equal(motion.regime, i ? FST_REGIME_LIBRATING : FST_REGIME_LOCKED);
+        film.seconds = 7.0;
+        for (int mirrored = 0; mirrored < 2; ++mirrored) {
+            film.mirrored = mirrored;
+            const fst_measurement m =
+                measured(&motion, &film, mirrored ? -motion.drive : motion.drive, NAN, &track);
+            assert_int_equal(m.motion, FST_MOTION_LOCKED);
+            assert_true(isnan(m.festoons) && isnan(m.festoons_error));
+            assert_near(m.bead_frequency_hz, fmax(m.bead_frequency_hz_error, 2e-4 * motion.drive),
+                        motion.drive);
+            assert_near(m.mean_r, fmax(m.mean_r_error, 1e-3 * m.mean_r), film.scale * motion.mean_r);
+            assert_near(m.std_r, fmax(m.std_r_error, 0.02 * m.std_r), film.scale * motion.std_r);
+            fst_track_free(&track);
+        }
+        film.mirrored = 0;
+        const fst_measurement m = measured(&motion, &film, NAN, NAN, &track);
+        assert_true(isnan(m.festoons) && m.warning_count > 0);
+        assert_near(m.bead_frequency_hz, fmax(m.bead_frequency_hz_error, 2e-4 * motion.drive), motion.drive);
+        fst_track_free(&track);
+        made_motion_free(&motion);
+    }
+}
+
+static fst_status refuse(void *user, double fraction, const char *what, fst_error *error)
+{
+    double *last = user;
+    (void)what;
+    assert_true(fraction >= last[0] && fraction <= 1.0); /* it never falls */
+    last[0] = fraction;
+    if ((last[1] -= 1.0) > 0)
+        return FST_OK;
+    (void)snprintf(error->sentence, sizeof error->sentence, "enough");
+    return FST_INTERRUPTED;
+}
+
+/* The caller may end the work whenever it is told of the progress. */
+static void test_interruption(void **state)
+{
+    (void)state;
+    made_motion motion = motion_at(10.7, 3.0);
+    const made_film film = {.fps = 240, .seconds = 2.5, .scale = 4.0, .noise = 0.2, .clock = 1.0, .seed = 3};
+    for (int calls = 1; calls < 12; calls += 5) {
+        double user[2] = {0.0, calls};
+        const fst_progress progress = {user, refuse};
+        fst_measure_options options = fst_default_measure_options();
+        fst_measurement m;
+        fst_error error;
+        fst_track track;
+        options.progress = &progress;
+        made_track(&motion, &film, &track);
+        assert_int_equal(fst_measure_track(&track, &options, &m, &error), FST_INTERRUPTED);
+        assert_string_equal(error.sentence, "enough");
+        assert_true(user[1] == 0.0);
+        fst_track_free(&track);
+    }
+    made_motion_free(&motion);
+}
+
+static void test_20_films(void **state)
+{
+    (void)state;
+    check_coverage(2, 20);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_festoons),     cmocka_unit_test(test_unsure_festoons),
+        cmocka_unit_test(test_clocks),       cmocka_unit_test(test_few_frames_a_second),
+        cmocka_unit_test(test_exposure),     cmocka_unit_test(test_tilt),
+        cmocka_unit_test(test_faults),       cmocka_unit_test(test_locked),
+        cmocka_unit_test(test_interruption), cmocka_unit_test(test_20_films),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,262 @@
+"""What festoon measure writes: tables of points that festoon's other commands read, figures, the path of a scene laid over
+a track; measured points over sweeps and branches with chi^2; and the tracks that tools/blender-export.py makes.
+
+tests: measure/json.c measure/figure_measure.c measure/figure_points.c follow/overlay.c measure/points.c"""
+
+import csv
+import importlib.util
+import json
+import math
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import types
+import unittest
+
+import tracks
+
+FESTOON = os.environ["FESTOON"]
+SOURCE = os.environ["SOURCE_DIR"]
+
+
+class Program(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as out:
+            out.write(text)
+        return self.path(name)
+
+    def festoon(self, *words, status=0):
+        done = subprocess.run([FESTOON, *words], capture_output=True, text=True)
+        self.assertEqual(done.returncode, status, done.stderr)
+        return done
+
+
+class Points(Program):
+    def test_table_of_points(self):
+        """Three films, a row each: the drive comes from the tracks themselves."""
+        drives = (12.8, 14.0, 15.0)
+        names = [self.write(f"{f}.csv", tracks.own(tracks.places(drive=f), unit="mm")) for f in drives]
+        out = self.path("points.csv")
+        done = self.festoon("measure", *names, "--json", "-o", out)
+        several = json.loads(done.stdout)
+        with open(out, encoding="utf-8") as table:
+            rows = list(csv.DictReader(table))
+        self.assertEqual((len(rows), len(several)), (3, 3))
+        for row, found, drive in zip(rows, several, drives):
+            self.assertAlmostEqual(float(row["frequency [Hz]"]), drive, delta=0.01)
+            self.assertAlmostEqual(float(row["mean_r [mm]"]), found["mean_r"], places=9)
+            self.assertAlmostEqual(float(row["std_r_error [mm]"]), found["std_r_error"], places=9)
+            self.assertAlmostEqual(float(row["bead_frequency [Hz]"]), -tracks.BEAD, delta=0.01)
+
+    def test_refusals(self):
+        pixels = self.write("px.csv", tracks.own(tracks.places()))
+        out = self.path("points.csv")
+        self.assertIn("--scale", self.festoon("measure", pixels, "-o", out, status=2).stderr)
+        self.assertIn(".csv", self.festoon("measure", pixels, "-o", self.path("a.txt"), status=2).stderr)
+        self.assertIn("--drive", self.festoon("measure", pixels, "--drive", "1Hz,2Hz", status=2).stderr)
+        self.assertIn("--figure", self.festoon("measure", pixels, "--compare", "a.yaml", status=2).stderr)
+        self.assertEqual(os.listdir(self.folder.name), ["px.csv"])
+
+    def test_points_over_a_sweep(self):
+        """Points that lie so many errors off the computed rows have just that chi^2."""
+        base = self.path("sweep.db")
+        self.festoon("sweep", "--over", "drive.frequency=15Hz:16Hz:3", "--set", "run.periods=120", "--set",
+                     "run.discard=80", "-o", base)
+        rows = json.loads(self.festoon("export", base, "--json").stdout)
+        lines = ["frequency [Hz],mean_r [mm],mean_r_error [mm],bead_frequency [Hz],bead_frequency_error [Hz]"]
+        for k, row in enumerate(rows):
+            bead = row["mean_alpha_dot"] * 312.5 / (2 * math.pi)
+            lines.append(f"{15 + 0.5 * k!r},{23 * row['mean_r'] + 0.1 * k!r},0.1,{bead - 0.03!r},0.03")
+        lines.append("40,20,1,,")  # no curve there
+        points = self.write("points.csv", "\n".join(lines) + "\n")
+        if not shutil.which("gnuplot"):
+            self.skipTest("no gnuplot")
+        said = self.festoon("plot", base, "--points", points, "-o", self.path("fig.svg")).stderr
+        chi2, counted = re.search(r"chi\^2 = ([\d.]+) of (\d+) measured", said).groups()
+        self.assertAlmostEqual(float(chi2), 0 + 1 + 4 + 3, delta=1e-4)
+        self.assertEqual(counted, "6")
+        self.assertIn("(7 in the table)", said)
+        other = self.path("other.db")
+        self.festoon("sweep", "--over", "friction.gamma=300:310:2", "--set", "run.periods=6", "--set", "run.discard=2",
+                     "-o", other)
+        self.assertIn("friction.gamma",
+                      self.festoon("plot", other, "--points", points, "-o", self.path("no.svg"), status=2).stderr)
+        self.assertFalse(os.path.exists(self.path("no.svg")))
+
+    def test_the_paper_in_words_over_a_branch(self):
+        """At 7 Hz the branch is unstable alone, which says nothing of a bead; where it passes the axis, at 8.9 Hz, the
+        bead's frequency jumps, and no line joins its two ends."""
+        if not shutil.which("gnuplot"):
+            self.skipTest("no gnuplot")
+        branch = self.path("branch.json")
+        done = subprocess.run([FESTOON, "branch", "--kind", "counter", "--over", "drive.frequency=5Hz:21Hz", "-o", branch],
+                              capture_output=True, text=True)
+        if done.returncode == 1 and "LAPACK" in done.stderr:
+            self.skipTest("no LAPACK")
+        words = os.path.join(SOURCE, "examples", "paper-words.csv")
+        said = self.festoon("plot", branch, "--points", words, "-o", self.path("fig.svg")).stderr
+        chi2, counted = re.search(r"chi\^2 = ([\d.]+) of (\d+) measured", said).groups()
+        self.assertEqual(counted, "3")
+        before, joined = None, 0
+        with open(self.path("fig.dat"), encoding="utf-8") as file:
+            for line in file:
+                numbers = [float(word) for word in line.split()] if line[:1].isdigit() else []
+                if before and numbers and all(map(math.isfinite, before + numbers)):
+                    joined += 1
+                    if before[0] < 9.5 and numbers[0] < 9.5:
+                        self.assertLess(abs(numbers[1] - before[1]), 4)
+                before = numbers
+        self.assertGreater(joined, 20)
+        self.assertLess(float(chi2), 3.0)
+
+
+class Readings(Program):
+    """What a film can be read as in more than one way."""
+
+    def measured(self, text, *words):
+        return json.loads(self.festoon("measure", self.write("film.csv", text), "--json", *words).stdout)
+
+    def assert_covers(self, found, key, truth):
+        self.assertLess(abs(found[key] - truth), 4 * found[key + "_error"], key)
+
+    def test_mirrored_film_of_four_festoons(self):
+        """2 (9.6 - 3.2) is 9.6 + 3.2: twice the rate of a bead that goes with the magnet is that of one against it."""
+        rows = tracks.places(sense=1, drive=9.6)
+        found = self.measured(tracks.own(rows), "--drive", "9.6Hz")
+        self.assert_covers(found, "bead_frequency_hz", -tracks.BEAD)
+        self.assert_covers(found, "festoons", 4.0)
+        self.assertIn("mirrored", " ".join(found["warnings"]))
+
+    def test_wrong_drive_makes_no_strange_clock(self):
+        """A bead of four festoons is not one of S2 in a film of 800 frames a second."""
+        found = self.measured(tracks.own(tracks.places(bead=3.5, drive=10.7)), "--drive", "12Hz")
+        self.assertAlmostEqual(found["fps"], 240.0, places=3)
+        self.assert_covers(found, "bead_frequency_hz", -3.5)
+        self.assertIn("frame rate", " ".join(found["warnings"]))
+
+    def test_folded_line_without_a_drive(self):
+        """17.2 Hz at 30 frames a second look like 12.8 Hz: both readings are told, and the error covers both."""
+        text = tracks.own(tracks.places(fps=30.0, drive=14.0, seconds=8.0), fps=30.0)
+        found = self.measured(text)
+        self.assertAlmostEqual(found["drive_from_track_hz"], 9.6, delta=0.01)
+        self.assert_covers(found, "drive_from_track_hz", 14.0)
+        self.assert_covers(found, "festoons", 1 + 14.0 / tracks.BEAD)
+        self.assertIn("alias", " ".join(found["warnings"]))
+        found = self.measured(text, "--drive", "14Hz")
+        self.assert_covers(found, "drive_from_track_hz", 14.0)
+        self.assertLess(found["drive_from_track_hz_error"], 0.01)
+        self.assertEqual(self.measured(tracks.own(tracks.places()))["warnings"], [])
+
+    def test_rates_by_the_drive_alone(self):
+        """Without a clock the error of the bead's rate has that of the clock in it."""
+        for seed in range(1, 7):
+            text = re.sub(r"(?m)^(\d+),[^,]*,", r"\1,", tracks.own(tracks.places(seed=seed))).replace("t [s],", "")
+            found = self.measured(text, "--drive", f"{tracks.DRIVE}Hz")
+            self.assert_covers(found, "bead_frequency_hz", -tracks.BEAD)
+            self.assertLess(found["bead_frequency_hz_error"], 0.001)
+
+    def test_oscillation_lost_in_the_exposure(self):
+        """What an exposure has blurred away is unknown."""
+        text = tracks.own(tracks.places(fps=20.0, seconds=8.0), fps=20.0)
+        found = self.measured(text, "--drive", f"{tracks.DRIVE}Hz", "--exposure", "49ms")
+        self.assertEqual((found["std_r"], found["std_r_error"], found["mean_r_error"]), (None, None, None))
+        self.assertIn("exposure", " ".join(found["warnings"]))
+
+
+class Figures(Program):
+    def blocks(self, name):
+        """The blocks of a figure's data by their names: a comment line of one word begins a block."""
+        found, rows = {}, []
+        with open(self.path(name), encoding="utf-8") as data:
+            for line in data:
+                if re.fullmatch(r"# [a-z-]+\n", line):
+                    rows = found[line[2:-1]] = []
+                elif line.strip() and not line.startswith("#"):
+                    rows.append([float(word) for word in line.split()])
+        return found
+
+    def test_a_scene_over_its_own_track(self):
+        """A scene's own motion, measured, and the scene laid over it: both are the same curve in the magnet's frame."""
+        if not shutil.which("gnuplot"):
+            self.skipTest("no gnuplot")
+        scene = os.path.join(SOURCE, "examples", "paper-10.7Hz.yaml")
+        run = self.path("run.csv")
+        self.festoon("run", scene, "--csv", run, "--set", "run.periods=260", "--set", "run.discard=200")
+        with open(run, encoding="utf-8") as whole:  # the settled part alone
+            lines = whole.read().splitlines()
+        head = next(i for i, line in enumerate(lines) if line.startswith("t [")) + 1
+        rows = [line.split(",") for line in lines[head:] if not line.startswith("#")]
+        names = [name.split(" ")[0] for name in lines[head - 1].split(",")]
+        t, x, y = (names.index(name) for name in ("t", "x", "y"))
+        made = ["t [s],x [mm],y [mm]"] + [f"{float(row[t]) / 312.5:.9f},{23 * float(row[x]):.9f},{23 * float(row[y]):.9f}"
+                                          for row in rows if float(row[t]) / 312.5 > 200 / 10.7]
+        for mirrored in (False, True):
+            text = "\n".join(made) + "\n"
+            if mirrored:
+                text = "\n".join([made[0]] + [re.sub(r"([^,]+)$", lambda y: f"{-float(y.group(1)):.9f}", line)
+                                              for line in made[1:]]) + "\n"
+            track = self.write("track.csv", text)
+            drive = "-10.7Hz" if mirrored else "10.7Hz"
+            self.festoon("measure", track, "--drive", drive, "--figure", self.path("fig.svg"), "--compare", scene)
+            blocks = self.blocks("fig.dat")
+            curve = [tuple(row) for row in blocks["model-magnet"]]
+            far = max(min(math.hypot(row[3] - a, row[4] - b) for a, b in curve) for row in blocks["seen"][::7])
+            self.assertLess(far, 0.15)  # mm; the curve has 512 places on some 110 mm
+        # a scene whose run ends as soon as it has settled, before its discard
+        self.festoon("measure", track, "--drive", drive, "--figure", self.path("fig.svg"), "--compare", scene, "--set",
+                     "run.until=settled")
+        same = [tuple(row) for row in self.blocks("fig.dat")["model-magnet"]]
+        self.assertLess(max(min(math.dist(a, b) for b in curve) for a in same[::8]), 0.15)
+
+    def test_figure_of_a_locked_bead(self):
+        if not shutil.which("gnuplot"):
+            self.skipTest("no gnuplot")
+        track = self.write("track.csv", tracks.own(tracks.places(sense=1, bead=5.0, swing=0.0)))
+        self.festoon("measure", track, "--drive", "5Hz", "--figure", self.path("fig.svg"))
+        self.assertTrue(os.path.exists(self.path("fig.svg")))
+        said = self.festoon("measure", track, "--drive", "5Hz", "--figure", self.path("no.svg"), "--compare",
+                            os.path.join(SOURCE, "examples", "paper-10.7Hz.yaml"), status=2).stderr
+        self.assertIn("--compare", said)
+        self.assertFalse(os.path.exists(self.path("no.svg")))
+
+
+class Blender(Program):
+    def test_export(self):
+        """A clip as Blender hands it out: places from 0 to 1, y up, muted markers, further objects."""
+        spec = importlib.util.spec_from_file_location("blender_export", os.path.join(SOURCE, "tools/blender-export.py"))
+        module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        width, height, lost = 640, 480, {10, 11, 300}
+        thing = types.SimpleNamespace
+
+        def track(name, places):
+            return thing(name=name, markers=[thing(frame=i + 1, mute=i in lost, co=(x / width, y / height))
+                                             for i, (x, y) in enumerate(places)])
+
+        rows = [(320 + x, 240 + y) for x, y in tracks.places()]
+        bead = track('the "bead", 5 mm', rows)
+        clip = thing(name="film.mp4", size=(width, height), fps=240.0, frame_start=1,
+                     tracking=thing(tracks=[track("speck", rows[:50])], objects=[thing(tracks=[bead])]))
+        path = self.write("tracks.csv", module.table(clip))
+        done = self.festoon("measure", path, "--json")
+        found = json.loads(done.stdout)
+        self.assertIn("the longest of 2", done.stderr)
+        self.assertAlmostEqual(found["mean_r"], tracks.R0, delta=0.02)
+        self.assertAlmostEqual(found["drive_from_track_hz"], tracks.DRIVE, delta=5e-3)
+        self.assertEqual((found["frames"], found["lost"]), (960, 3))
+        self.assertLess(found["bead_frequency_hz"], 0)
+        with self.assertRaises(SystemExit):
+            module.table(thing(name="empty", size=(1, 1), fps=25.0, tracking=thing(tracks=[], objects=[])))
+
+
+if __name__ == "__main__":
+    unittest.main()

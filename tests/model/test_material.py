@@ -1,0 +1,67 @@
+"""A warning names a bead whose mass and radius contradict any material, in words and in the JSON of `check`.
+
+tests: model/material.c cli/check.c
+labels: numbers"""
+
+import json
+import tempfile
+import unittest
+from pathlib import Path
+
+from sweep_tools import festoon
+
+SHORT = ["--set", "run.periods=8", "--set", "run.discard=2"]
+
+
+def changed(*settings):
+    return [word for setting in settings for word in ("--set", setting)]
+
+
+class Material(unittest.TestCase):
+    IMPOSSIBLE = [("bead.radius=5mm",), ("bead.radius=1.5mm",), ("bead.mass=50mg",), ("bead.mass=1.6g",)]
+    FORGOTTEN = [("bead.radius=2mm",), ("bead.radius=2.6mm",), ("bead.radius=3mm", "bead.material=paramagnetic"),
+                 ("bead.radius=3mm", "bead.density=8000")]
+    POSSIBLE = [(), ("bead.radius=3mm", "bead.mass=0.86g"), ("bead.radius=2mm", "model.kappa=2.3"), ("model.eps=0.2",),
+                ("bead.radius=3mm", "bead.density=8000", "model.kappa=1.04"), ("bead.density=8000",),
+                ("bead.radius=2.2mm", "bead.moment=0.05", "magnet.b0=6mT"), ("bead.mass=0.4g",)]
+
+    def warnings(self, settings):
+        status, out, err = festoon("check", *changed(*settings), "--json")
+        self.assertEqual(status, 0, err)
+        found = json.loads(out)["warnings"]
+        self.assertEqual(err, "".join(f"festoon: warning: {sentence}\n" for sentence in found))
+        return found
+
+    def test_check_tells(self):
+        for settings in self.IMPOSSIBLE:
+            self.assertRegex("".join(self.warnings(settings)), r"density of \d+ kg/m\^3, which no material has", settings)
+        for settings in self.FORGOTTEN:
+            self.assertRegex("".join(self.warnings(settings)), "still (those|that) of the default", settings)
+        for settings in self.POSSIBLE:
+            self.assertEqual(self.warnings(settings), [], settings)
+
+    def test_commands_tell_and_go_on(self):
+        for command in ("run", "lyapunov", "orbit", "locked"):
+            status, out, err = festoon(command, *changed("bead.radius=2mm"), *SHORT, "--json")
+            self.assertEqual(status, 0, err)
+            self.assertEqual(err.count("warning"), 1, err)
+            json.loads(out)
+            self.assertEqual(festoon(command, *SHORT, "--json")[2], "")
+
+    def test_a_sweep_and_a_branch_over_the_radius_tell_once(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for axes, count in ((["--over", "bead.radius=2mm:3mm:3"], 1), (["--over", "drive.frequency=10,11"], 0),
+                                (["--over", "bead.radius=2.5mm:3mm:3"], 1), (["--over", "bead.mass=0.4g:0.6g:3"], 0),
+                                (["--over", "bead.radius=2.5mm,3mm,2.5mm"], 1),
+                                (["--over", "bead.radius=3mm,4mm", "--over", "bead.density=7000,8000"], 1),
+                                (["--over", "drive.frequency=9:10:300", "--over", "bead.radius=2.5mm,2.6mm,2.5mm"], 1),
+                                (["--over", "bead.radius=2mm,3mm", "--set", "model.kappa=2"], 0)):
+                path = Path(folder) / f"{len(list(Path(folder).iterdir()))}.db"
+                status, out, err = festoon("sweep", *axes, *SHORT, "-o", str(path))
+                self.assertEqual((status, err.count("warning")), (0, count), (axes, err))
+        status, out, err = festoon("branch", "--kind", "counter", "--over", "bead.radius=2.499mm:2.5mm")
+        self.assertEqual((status, err.count("warning")), (0, 1), err)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,102 @@
+/* Whole branches: special points do not depend on tolerances or steps, and families that meet agree where they
+ * meet.
+ * tests: orbit/special.c orbit/counter.c
+ * labels: long */
+#include "branches.h"
+
+static fst_branch follow(const char *dynamics, double from, double to, double tolerance, double step)
+{
+    const fst_params params = scene_of(0.3, dynamics);
+    fst_branch_options o = over_omega(FST_BRANCH_COUNTER, from, to);
+    o.tolerance = tolerance;
+    o.longest_step = step;
+    return followed(&params, &o);
+}
+
+static const struct special_point {
+    const char *dynamics;
+    fst_special_type type;
+    double value;
+    int criticality;
+} SPECIALS[] = {
+    {"rigid", FST_SPECIAL_PITCHFORK, 0.26885303399, 1},
+    {"rigid", FST_SPECIAL_FOLD, 3.38951025245, 0},
+    {"rigid", FST_SPECIAL_ORIGIN_CROSSING, 0.17889115893, 0},
+    {"rigid", FST_SPECIAL_HOPF, 0.15263663056, 1},
+    {"rigid", FST_SPECIAL_HOPF, 0.03357948816, -1},
+    {"rigid", FST_SPECIAL_FOLD, 0.03180383352, 0},
+    {"farago2020", FST_SPECIAL_PITCHFORK, 0.28972621571, 1},
+    {"farago2020", FST_SPECIAL_FOLD, 2.36353343934, 0},
+    {"farago2020", FST_SPECIAL_ORIGIN_CROSSING, 0.17924973066, 0},
+};
+enum { SPECIAL_COUNT = sizeof SPECIALS / sizeof *SPECIALS };
+
+/* Tightening every tolerance (integration and location a hundredfold, Newton's residual tenfold) and more than
+ * halving the steps moves no special point by 1e-9. */
+static void specials_do_not_depend_on_tolerances(void **state)
+{
+    (void)state;
+    static const char *const dynamics[] = {"rigid", "farago2020"};
+    for (int d = 0; d < 2; ++d) {
+        fst_branch loose = follow(dynamics[d], 0.02, 5.0, 1e-12, 0.5);
+        fst_branch tight = follow(dynamics[d], 0.02, 5.0, 1e-14, 0.2);
+        assert_int_equal(loose.special_count, tight.special_count);
+        for (int i = 0; i < SPECIAL_COUNT; ++i) {
+            const struct special_point *wanted = &SPECIALS[i];
+            if (strcmp(wanted->dynamics, dynamics[d]) != 0)
+                continue;
+            const fst_special *a = special_near(&loose, wanted->type, wanted->value);
+            const fst_special *b = special_near(&tight, wanted->type, wanted->value);
+            CHECK_CLOSE(a->value, b->value, 1e-9);
+            CHECK_CLOSE(b->value, wanted->value, 1e-9);
+            assert_int_equal(a->criticality, wanted->criticality);
+            assert_int_equal(b->criticality, wanted->criticality);
+        }
+        fst_branch_free(&loose);
+        fst_branch_free(&tight);
+    }
+}
+
+/* No branch jumps: neighbouring points are near each other, with one symmetry. */
+static void branches_do_not_jump(void **state)
+{
+    (void)state;
+    fst_branch b = follow("rigid", 0.1, 3.0, 1e-12, 0.5);
+    for (size_t i = 0; i + 1 < b.point_count; ++i) {
+        const fst_branch_point *p = &b.points[i], *q = p + 1;
+        if (p->branch != q->branch)
+            continue;
+        assert_true(fabs(p->value - q->value) < 0.1);
+        assert_true(fabs(p->mean_r - q->mean_r) < 0.15);
+        assert_true((p->symmetry == FST_SYMMETRY_S2) == (q->symmetry == FST_SYMMETRY_S2));
+    }
+    fst_branch_free(&b);
+}
+
+/* The branch of equilibria is computed without the orbits, and yet loses its stability where these are born. */
+static void hopf_points_agree_between_orbits_and_equilibria(void **state)
+{
+    (void)state;
+    fst_branch orbits = follow("rigid", 0.02, 0.5, 1e-13, 0.5);
+    const fst_params params = scene_of(0.3, "rigid");
+    const fst_branch_options o = over_omega(FST_BRANCH_LOCKED, 0.02, 0.5);
+    fst_branch equilibria = followed(&params, &o);
+    const double at[] = {0.15263663056, 0.03357948816};
+    for (int i = 0; i < 2; ++i)
+        CHECK_CLOSE(special_near(&orbits, FST_SPECIAL_HOPF, at[i])->value,
+                    special_near(&equilibria, FST_SPECIAL_HOPF, at[i])->value, 1e-9);
+    /* A pitchfork of equilibria on the axis, where only the rotation of n decides: it must lie on the axis. */
+    CHECK_CLOSE(special_near(&equilibria, FST_SPECIAL_PITCHFORK, 0.1975839610)->at.mean_r, 0.0, 1e-6);
+    fst_branch_free(&orbits);
+    fst_branch_free(&equilibria);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(specials_do_not_depend_on_tolerances),
+        cmocka_unit_test(branches_do_not_jump),
+        cmocka_unit_test(hopf_points_agree_between_orbits_and_equilibria),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,116 @@
+/* Curves of solutions where Newton's method fails at a bad moment.
+ * tests: orbit/curve.c orbit/node.c */
+#include "numeric.h"
+
+#include <stdio.h>
+
+#include "orbit/curve.h"
+
+/* LAPACK with a fault: the given number of times, it calls a system singular that holds the parameter fixed, as
+ * at the border of the range. Such systems are known by a last row of zeros but for its last element. */
+static const fst_lapack *lapack;
+static int faults;
+
+static int faulty_solve(int n, int columns, double *a, double *b)
+{
+    int fixed = n == FST_TANGENT_SIZE + 1;
+    for (int i = 0; i + 1 < n; ++i)
+        fixed = fixed && a[(n - 1) * n + i] == 0.0;
+    if (fixed && faults > 0) {
+        faults -= 1;
+        return 1;
+    }
+    return lapack->solve(n, columns, a, b);
+}
+
+typedef struct path {
+    double last;
+    int nodes;
+} path;
+
+static fst_status take_node(void *user, const fst_node *node, fst_error *error)
+{
+    path *p = user;
+    (void)error;
+    p->last = node->s.value;
+    p->nodes += 1;
+    return FST_OK;
+}
+
+static fst_status take_special(void *user, fst_special_type type, const fst_node *at, int criticality,
+                               const fst_node *born, fst_error *error)
+{
+    (void)user, (void)type, (void)at, (void)criticality, (void)born, (void)error;
+    return FST_OK;
+}
+
+/* A curve that begins at the equilibrium on the axis with n along the magnet's lines, and rises in model.h. */
+static void follow_axis(int faults_wanted, path *p, fst_curve *curve)
+{
+    const fst_params params = fst_default_params();
+    fst_family family;
+    fst_error error;
+    fst_node start;
+    fst_setup setup;
+    fst_lapack faulty;
+    memset(p, 0, sizeof *p);
+    assert_int_equal(fst_family_begin(&family, &params, "model.h", &error), FST_OK);
+    family.watch = NULL;
+    fst_solution s;
+    memset(&s, 0, sizeof s);
+    s.value = 0.6;
+    assert_int_equal(fst_family_setup(&family, s.value, &setup, &error), FST_OK);
+    s.y[0][FST_NX] = -1.0;
+    s.y[0][FST_WZ] = setup.model.groups.omega;
+    assert_int_equal(fst_solution_correct(&family, &s, NULL, &error), FST_OK);
+    assert_int_equal(fst_node_make(&family, &s, &start, &error), FST_OK);
+    lapack = family.lapack;
+    faulty = *lapack;
+    faulty.solve = faulty_solve;
+    family.lapack = &faulty;
+    faults = faults_wanted;
+    *curve = (fst_curve){.family = &family,
+                         .from = 0.55,
+                         .to = 0.65,
+                         .longest_step = 0.5,
+                         .sink = {p, 0, take_node, take_special}};
+    assert_int_equal(fst_curve_follow(curve, &start, start.s.tangent.value > 0 ? 1 : -1, &error), FST_OK);
+}
+
+/* If the border cannot be reached from the last node in one step, smaller steps reach it. */
+static void the_border_is_reached_in_smaller_steps(void **state)
+{
+    (void)state;
+    fst_curve curve;
+    path whole, p;
+    follow_axis(0, &whole, &curve);
+    assert_int_equal(curve.end.type, FST_END_RANGE);
+    for (int wanted = 1; wanted <= 3; ++wanted) {
+        follow_axis(wanted, &p, &curve);
+        assert_int_equal(faults, 0);
+        assert_int_equal(curve.end.type, FST_END_RANGE);
+        assert_true(p.last == 0.65);
+        assert_true(p.nodes > whole.nodes);
+    }
+}
+
+/* If the border cannot be reached at all, the curve ends before it and says so; this is no failure. */
+static void a_border_out_of_reach(void **state)
+{
+    (void)state;
+    fst_curve curve;
+    path p;
+    follow_axis(1000000, &p, &curve);
+    assert_int_equal(curve.end.type, FST_END_LOST);
+    CHECK_CONTAINS(curve.end.reason, "could not be followed beyond 0.6");
+    assert_true(p.nodes > 3 && p.last > 0.64 && p.last < 0.65);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_border_is_reached_in_smaller_steps),
+        cmocka_unit_test(a_border_out_of_reach),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
