@@ -25,6 +25,7 @@ if(FESTOON_TOOLS)
     list(APPEND exported_libraries festoon_tools_library)
     install(FILES include/festoon/festoon_tools.h include/festoon/look.h include/festoon/charts.h
             include/festoon/fit.h include/festoon/tracks.h include/festoon/film_tracks.h include/festoon/measure.def
+            include/festoon/bead_files.h
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/festoon")
     configure_file(cmake/festoon-tools.pc.in festoon-tools.pc @ONLY)
     install(FILES "${PROJECT_BINARY_DIR}/festoon-tools.pc" DESTINATION "${pkgconfig_dir}")

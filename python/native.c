@@ -1,6 +1,7 @@
 /* native.c - buffers, batches and progress of the Python module. */
 #include "native.h"
 
+#include <math.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -40,12 +41,13 @@ fst_status pyf_tell(void *user, double fraction, const char *what, fst_error *er
 
 /* ------------------------------------------------------------------ samples */
 
-static fst_status no_memory(fst_error *error, size_t count)
+static fst_status no_memory(fst_error *error, const char *where, int64_t count, const char *what)
 {
     if (error) {
         error->code = FST_NO_MEMORY;
-        (void)snprintf(error->where, sizeof error->where, "trajectory");
-        (void)snprintf(error->sentence, sizeof error->sentence, "no memory for %zu samples", count);
+        (void)snprintf(error->where, sizeof error->where, "%s", where);
+        (void)snprintf(error->sentence, sizeof error->sentence, "no memory for %lld %s", (long long)count,
+                       what);
     }
     return FST_NO_MEMORY;
 }
@@ -55,7 +57,7 @@ static void *with_room(void *array, size_t count, size_t *room, size_t size)
 {
     if (count < *room)
         return array;
-    const size_t wanted = *room ? 2 * *room : 1024;
+    const size_t wanted = *room ? 2 * *room : 64;
     void *longer = realloc(array, wanted * size);
     if (longer)
         *room = wanted;
@@ -70,7 +72,7 @@ fst_status pyf_take_sample(void *user, const fst_sample *sample, fst_error *erro
     const size_t columns = (size_t)fst_column_count();
     double *values = with_room(samples->values, samples->rows, &samples->room, columns * sizeof *values);
     if (!values)
-        return no_memory(error, samples->rows + 1);
+        return no_memory(error, "trajectory", (int64_t)samples->rows + 1, "samples");
     samples->values = values;
     fst_column_values(sample, values + columns * samples->rows++);
     return FST_OK;
@@ -82,9 +84,31 @@ fst_status pyf_take_ramp_point(void *user, const fst_ramp_point *point, fst_erro
     fst_ramp_point *ramp =
         with_room(samples->ramp, samples->ramp_count, &samples->ramp_room, sizeof *samples->ramp);
     if (!ramp)
-        return no_memory(error, samples->ramp_count + 1);
+        return no_memory(error, "ramp", (int64_t)samples->ramp_count + 1, "points");
     samples->ramp = ramp;
     samples->ramp[samples->ramp_count++] = *point;
+    return FST_OK;
+}
+
+fst_status pyf_take_beads_sample(void *user, const fst_beads_sample *sample, fst_error *error)
+{
+    pyf_bead_samples *samples = user;
+    if (samples->file)
+        return fst_beads_trajectory_append(samples->file, sample, error);
+    const size_t beads = (size_t)sample->count, states = beads * FST_BEAD_NUMBERS, columns = 2 + states + beads;
+    double *values = with_room(samples->values, samples->rows, &samples->room, columns * sizeof *values);
+    if (!values)
+        return no_memory(error, "trajectory", (int64_t)samples->rows + 1, "samples");
+    samples->values = values;
+    double *row = values + columns * samples->rows++, *loads = row + 2 + states;
+    row[0] = sample->t;
+    row[1] = sample->drive_turns;
+    memcpy(row + 2, sample->states, states * sizeof *row);
+    for (size_t i = 0; i < beads; ++i)
+        loads[i] = NAN;
+    for (int k = 0; k < sample->touch_count; ++k)
+        if (sample->touches[k].beads[1] < 0)
+            loads[sample->touches[k].beads[0]] = sample->touches[k].force;
     return FST_OK;
 }
 
@@ -101,7 +125,8 @@ struct pyf_batch {
     int lanes;
     int64_t points;
     atomic_llong next, done;
-    atomic_int stop;
+    atomic_int stop, starved;
+    const fst_progress *progress;
     pyf_row *rows;
 };
 
@@ -143,12 +168,17 @@ int pyf_row_fail(pyf_row *row, const char *where, const char *sentence)
     return 1;
 }
 
-/* A failure of a run is what its row says; without memory for the sentence the row still has the status. */
+/* A failure of a run is what its row says; without memory for the sentence the row still has the status.  A run that
+ * gets no memory is no row: it would be another one elsewhere. */
 static void keep(pyf_batch *batch, int64_t point, fst_status status, const fst_run_result *result,
                  const fst_error *error)
 {
     pyf_row *row = &batch->rows[point];
-    if (status == FST_INTERRUPTED)
+    if (status == FST_NO_MEMORY) {
+        atomic_store(&batch->starved, 1);
+        atomic_store(&batch->stop, 1);
+    }
+    if (status == FST_INTERRUPTED || status == FST_NO_MEMORY)
         return;
     if (result)
         row->result = *result;
@@ -193,26 +223,48 @@ static fst_status ask_stop(void *user, double fraction, const char *what, fst_er
     return atomic_load_explicit(&batch->stop, memory_order_relaxed) ? interrupted(error) : FST_OK;
 }
 
-fst_status pyf_batch_work(pyf_batch *batch, fst_error *error)
+/* What one thread does: runs as long as there are some. */
+static fst_status work(void *user, int index, fst_error *error)
 {
+    pyf_batch *batch = user;
     const fst_progress progress = {batch, ask_stop};
-    const fst_row_work work = {.user = batch,
+    (void)index;
+    const fst_row_work rows = {.user = batch,
                                .arithmetic = batch->arithmetic,
                                .lanes = batch->lanes,
                                .next = next_job,
                                .done = take_result,
                                .progress = &progress};
-    return fst_rows(&work, error);
+    const fst_status status = fst_rows(&rows, error);
+    if (status != FST_OK)
+        atomic_store(&batch->stop, 1);
+    if (atomic_load(&batch->starved))
+        return no_memory(error, "sweep", batch->points, "runs");
+    return status == FST_INTERRUPTED ? FST_OK : status; /* it was told to stop, and who told it says why */
 }
 
-void pyf_batch_stop(pyf_batch *batch)
+/* How far the runs are, for the thread that waits for them. */
+static fst_status tell(void *user, double fraction, const char *what, fst_error *error)
 {
-    atomic_store(&batch->stop, 1);
+    pyf_batch *batch = user;
+    char text[64];
+    const long long done = atomic_load(&batch->done), points = (long long)batch->points;
+    (void)fraction;
+    (void)what;
+    (void)snprintf(text, sizeof text, "%lld of %lld runs", done, points);
+    const fst_status status =
+        batch->progress->tell(batch->progress->user, (double)done / (double)points, text, error);
+    if (status != FST_OK)
+        atomic_store(&batch->stop, 1);
+    return status;
 }
 
-int64_t pyf_batch_done(const pyf_batch *batch)
+fst_status pyf_batch_work(pyf_batch *batch, int threads, const fst_progress *progress, fst_error *error)
 {
-    return atomic_load(&batch->done);
+    const fst_progress told = {batch, tell};
+    const fst_work all = {.user = batch, .count = threads, .piece = work, .progress = &told};
+    batch->progress = progress;
+    return fst_parallel(&all, error);
 }
 
 pyf_row *pyf_batch_rows(pyf_batch *batch)

@@ -4,6 +4,7 @@
 #ifndef FESTOON_PYTHON_NATIVE_H
 #define FESTOON_PYTHON_NATIVE_H
 
+#include <festoon/bead_files.h>
 #include <festoon/festoon_tools.h>
 
 /* The names of lists.def for which the library has no function, "one|two|...". */
@@ -29,6 +30,15 @@ fst_status pyf_take_sample(void *samples, const fst_sample *sample, fst_error *e
 fst_status pyf_take_ramp_point(void *samples, const fst_ramp_point *point, fst_error *error);
 void pyf_free(void *memory);
 
+/* The same of several beads: rows of t, drive_turns, the twelve numbers of each bead, and the load of each, NAN in the
+ * air. */
+typedef struct pyf_bead_samples {
+    double *values;
+    size_t rows, room;
+    fst_beads_trajectory *file;
+} pyf_bead_samples;
+fst_status pyf_take_beads_sample(void *samples, const fst_beads_sample *sample, fst_error *error);
+
 /* A row of a batch; all zeros as long as the run is not done, so that memory is not touched before it is
  * needed.
  */
@@ -38,15 +48,12 @@ typedef struct pyf_row {
     fst_error *error; /* of a run that failed, otherwise NULL */
 } pyf_row;
 
-/* The runs of a grid, done by any number of threads, each with a call of pyf_batch_work().  The grid must live
- * as long as the batch is at work.  NULL: no memory. */
+/* The runs of a grid, done by pyf_batch_work() in so many threads, as far as there are processors; `progress` is told by
+ * the calling one.  The grid must live as long.  pyf_batch_new() gives NULL where there is no memory. */
 typedef struct pyf_batch pyf_batch;
 pyf_batch *pyf_batch_new(const fst_grid *grid, fst_arithmetic arithmetic, int lanes);
 void pyf_batch_free(pyf_batch *batch);
-fst_status pyf_batch_work(pyf_batch *batch, fst_error *error);
-/* Make all of them return within a tenth of a second, with FST_INTERRUPTED. */
-void pyf_batch_stop(pyf_batch *batch);
-int64_t pyf_batch_done(const pyf_batch *batch);
+fst_status pyf_batch_work(pyf_batch *batch, int threads, const fst_progress *progress, fst_error *error);
 pyf_row *pyf_batch_rows(pyf_batch *batch);
 
 /* Keep the error of a row that failed; 0: no memory. */

@@ -106,6 +106,11 @@ typedef enum { FST_DYNAMICS(FST_ROW_ENUM) FST_DYNAMICS_COUNT } fst_dynamics;
 typedef enum { FST_PATCHES(FST_ROW_ENUM) FST_PATCH_COUNT } fst_contact_patch;
 typedef enum { FST_SPINS(FST_ROW_ENUM) FST_SPIN_COUNT } fst_start_spin;
 typedef enum { FST_UNTILS(FST_ROW_ENUM) FST_UNTIL_COUNT } fst_run_until;
+typedef enum { FST_BEADS_METHODS(FST_ROW_ENUM) FST_BEADS_METHOD_COUNT } fst_beads_method;
+typedef enum { FST_PLATE_SHAPES(FST_ROW_ENUM) FST_PLATE_SHAPE_COUNT } fst_plate_shape;
+typedef enum { FST_PART_MOTIONS(FST_ROW_ENUM) FST_PART_MOTION_COUNT } fst_part_motion;
+typedef enum { FST_WAVEFORMS(FST_ROW_ENUM) FST_WAVEFORM_COUNT } fst_drive_waveform;
+typedef enum { FST_FRAMES(FST_ROW_ENUM) FST_FRAME_COUNT } fst_frame;
 
 /* The kinds of unit that a value may carry. */
 typedef enum { FST_UNITS(FST_ROW_ENUM) FST_UNIT_COUNT } fst_unit;
@@ -121,11 +126,40 @@ typedef struct fst_magnet_part {
     double remanence[3]; /* T; not of a dipole */
     double moment[3];    /* A m^2; of a dipole */
     double rotation[4];  /* degrees about the axis (x, y, z) that follows, through the centre */
+    int motion;          /* fst_part_motion */
 } fst_magnet_part;
 
 enum { FST_PARTS_MAX = 16 };
 
+/* A circular coil that stands still in the laboratory, whose axes are the magnet's at the time 0; its current is
+ * current + ac cos(2 pi frequency t + phase), anticlockwise seen from where the axis points to. */
+typedef struct fst_coil {
+    double radius, centre[3]; /* m */
+    double axis[3];
+    double turns, current, ac; /* A */
+    double frequency, phase;   /* Hz, degrees */
+} fst_coil;
+
+enum { FST_COILS_MAX = 8 };
+
 typedef struct fst_field_map fst_field_map; /* of magnet.shape: grid (field_maps.h) */
+
+/* What a bead of the list `beads` says of its own: the keys of bead.* and start.*.  Where it says nothing (NAN; -1 of
+ * a choice), those of the whole setup hold. */
+typedef struct fst_bead_params {
+#define FST_KEYS_OF_A_BEAD
+#define FST_REAL(group, name, unit, initial, least, greatest, doc) double group##_##name;
+#define FST_CHOICE(group, name, names, initial, doc) int group##_##name;
+#define FST_REALS3(group, name, unit, initial, least, greatest, doc) double group##_##name[3];
+#include <festoon/params.def>
+#undef FST_REALS3
+#undef FST_REAL
+#undef FST_CHOICE
+#undef FST_KEYS_OF_A_BEAD
+} fst_bead_params;
+
+/* The exact method takes FST_BEADS_MOST beads, which have keys; time stepping takes FST_BEADS_MANY. */
+enum { FST_BEADS_MOST = 8, FST_BEADS_MANY = 1000 };
 
 /* The library's own in fst_params: which of several forms of a quantity (fst_param_other_form()) was given. */
 enum { FST_FORMS = 16 };
@@ -150,7 +184,11 @@ typedef struct fst_params {
 #define FST_INT(group, name, initial, least, greatest, doc) int group##_##name;
 #define FST_CHOICE(group, name, names, initial, doc) int group##_##name;
 #define FST_TEXT(group, name, room, doc) char group##_##name[room];
+#define FST_REALS2(group, name, unit, initial, least, greatest, doc) double group##_##name[2];
+#define FST_REALS3(group, name, unit, initial, least, greatest, doc) double group##_##name[3];
 #include <festoon/params.def>
+#undef FST_REALS2
+#undef FST_REALS3
 #undef FST_REAL
 #undef FST_INT
 #undef FST_CHOICE
@@ -160,6 +198,12 @@ typedef struct fst_params {
     const fst_field_map *magnet_map;
     int magnet_part_count; /* of magnet.shape: parts */
     fst_magnet_part magnet_parts[FST_PARTS_MAX];
+    int bead_count; /* of the list `beads`; 0: there is none, but the one bead of bead.* and start.* */
+    fst_bead_params beads[FST_BEADS_MOST];
+    /* All beads of a list of more than FST_BEADS_MOST, which have no keys; borrowed as magnet_map is. */
+    const fst_bead_params *bead_list;
+    int coil_count;
+    fst_coil coils[FST_COILS_MAX];
     fst_params_notes notes; /* not to be written by programs */
 } fst_params;
 
@@ -190,20 +234,23 @@ typedef struct fst_param_info {
     size_t offset; /* of the field in fst_params */
 } fst_param_info;
 
-/* The number of rows of params.def, and the row `index` (NULL beyond the end).  Behind the rows of params.def
- * are those of the parts of a magnet, from "magnet.parts[0].kind" to the last number of part FST_PARTS_MAX - 1.
- */
+/* The number of rows of params.def, and the row `index` (NULL beyond the end).  Behind these
+ * are those of the parts of a magnet, from "magnet.parts[0].kind" to the last number of part FST_PARTS_MAX - 1, then
+ * the components of vectors ("start.position[0]"), the numbers of coils ("coils[0].radius", ...), and last those of the
+ * first FST_BEADS_MOST beads of a list, from "beads[0].bead.radius" on. */
 FST_API int fst_param_count(void);
 FST_API const fst_param_info *fst_param_at(int index);
 
-/* The number of rows that say something of this setup: those of params.def, and those of the parts that its
- * magnet has.  Ask it where whole setups are compared or written. */
+/* The number of rows that may say something of this setup; of parts that its magnet lacks fst_params_get() says
+ * nothing.  Ask it where whole setups are compared or written. */
 FST_API int fst_params_row_count(const fst_params *params);
 
-/* The part to which a row belongs, or -1: it is one of params.def. */
+/* The part of a magnet, the coil, or the bead of a list, to which a row belongs; -1: to none. */
 FST_API int fst_param_part(int index);
+FST_API int fst_param_coil(int index);
+FST_API int fst_param_bead(int index);
 
-/* The row index of a key, or -1. */
+/* The row index of a key, or -1.  A bead's own keys go without their group too: beads[1].radius. */
 FST_API int fst_param_find(const char *key);
 
 /* The name of the SI unit of a kind ("m", "Hz", "1" for a pure number), and the units that are accepted for it
@@ -223,7 +270,7 @@ FST_API fst_status fst_parse_value(const char *text, fst_unit unit, double *valu
  * (drive.omega and drive.frequency, model.eps and bead.radius, model.h and magnet.depth, model.lambda and
  * magnet.width, model.kappa and magnet.b0, bead.density and bead.mass, bead.remanence and bead.moment).
  * Another magnet.file takes magnet.checksum and the map away.  The key magnet.parts[N].kind of the part behind
- * the last one adds a part.  FST_BAD_INPUT: the sentence names the nearest valid key, the units, or the range.
+ * the last one adds a part, any key of the bead behind the last one adds a bead.  FST_BAD_INPUT: the sentence names the nearest valid key, the units, or the range.
  */
 FST_API fst_status fst_params_set(fst_params *params, const char *key, const char *text, fst_error *error);
 
@@ -237,13 +284,24 @@ FST_API fst_status fst_params_unset(fst_params *params, const char *key, fst_err
  * two forms of one quantity were changed; `params` is unchanged. */
 FST_API fst_status fst_params_settle(fst_params *params, fst_error *error);
 
+/* The setup of one bead of the list as if it were alone: what it says itself, and what the list's setup says.
+ * FST_BAD_INPUT: there is no such bead. */
+FST_API fst_status fst_params_of_bead(const fst_params *params, int bead, fst_params *alone, fst_error *error);
+
 /* Whether two keys that are both given in this setup tell one quantity twice.  model.kappa and magnet.b0 do
  * with lines and a moment of the bead; model.kappa and the moment do beside a real magnet. */
 FST_API int fst_params_clash(const fst_params *params, const char *one, const char *two);
 
 /* The drive periods that a run leaves out of its means: run.discard; but the first half of a run that is no
- * longer than run.discard, where that has its default of 200. */
+ * longer than run.discard, or that run.duration measures, where that has its default of 200. */
 FST_API double fst_run_discard(const fst_params *params);
+
+/* The key by which a bead needs three dimensions (plate.shape, medium.*, a start above the plate), so that
+ * fst_world_run() of beads.h simulates it; NULL: there is none. */
+FST_API const char *fst_key_of_world(const fst_params *params);
+
+/* The length of a run in drive periods: run.periods, or as many as run.duration has. */
+FST_API double fst_run_periods(const fst_params *params);
 
 /* FST_BAD_INPUT: a value was given that the choice of others leaves without effect (bead.a of a hard bead,
  * magnet.lines beside a map); the sentence says what to choose.  What only dry friction reads may wait under
@@ -359,8 +417,9 @@ FST_API fst_status fst_field_model_new(const fst_params *params, double height, 
 #define FST_STATE_SIZE 10
 enum { FST_X, FST_Y, FST_VX, FST_VY, FST_NX, FST_NY, FST_NZ, FST_WX, FST_WY, FST_WZ };
 
-/* The start state of start.r, start.phi, start.spin (rolling: the contact at rest, W along e_r; n = B/|B|).
- * FST_BAD_INPUT: it does not exist (rolling at r = eps, on the axis, or in a vanishing field). */
+/* The start state of start.r, start.phi, start.spin (rolling: the contact at rest, W along e_r; n = B/|B|), and
+ * of the vectors that replace them.  FST_BAD_INPUT: it does not exist (rolling at r = eps, on the axis, or in a
+ * vanishing field), or the bead is not on the plate. */
 FST_API fst_status fst_start_state(const fst_params *params, const fst_model *model,
                                    double state[FST_STATE_SIZE], fst_error *error);
 

@@ -8,6 +8,7 @@
 
 #include <stdio.h>
 
+#include <festoon/beads.h>
 #include <festoon/festoon.h>
 #include <festoon/look.h>
 #include <festoon/charts.h>
@@ -30,6 +31,13 @@ FST_API fst_status fst_scene_read(const char *path, fst_params *params, fst_erro
 /* The same from memory; `name` stands for the path in messages. */
 FST_API fst_status fst_scene_parse(const char *text, size_t size, const char *name, fst_params *params,
                                    fst_error *error);
+
+/* The same two for scenes that list up to FST_BEADS_MANY beads: more than FST_BEADS_MOST, which the above refuse, come in
+ * *beads, which the parameters borrow and the caller frees.  NULL otherwise. */
+FST_API fst_status fst_scene_read_beads(const char *path, fst_params *params, fst_bead_params **beads,
+                                        fst_error *error);
+FST_API fst_status fst_scene_parse_beads(const char *text, size_t size, const char *name, fst_params *params,
+                                         fst_bead_params **beads, fst_error *error);
 
 /* The scene as YAML text, with docs and units as comments if `commented`; free() it.  NULL: no memory.  Reading
  * it gives the same parameters, bit by bit. */
@@ -73,6 +81,8 @@ FST_API char *fst_scene_json(const fst_params *params);
 /* `orbit`; `others` (NULL: not asked for) are further patterns with the same number of festoons. */
 FST_API char *fst_orbit_json(const fst_params *params, const fst_orbit *orbit, const fst_orbit *others,
                              size_t count);
+FST_API char *fst_levitation_json(const fst_params *params, const fst_levitation_list *list);
+FST_API char *fst_levitation_branch_json(const fst_params *params, const fst_levitation_branch *branch);
 FST_API char *fst_locked_json(const fst_params *params, double omega, const fst_locked_list *list);
 FST_API char *fst_branch_json(const fst_params *params, const fst_branch *branch);
 FST_API char *fst_lyapunov_json(const fst_params *params, const fst_lyapunov *lyapunov);
@@ -96,6 +106,19 @@ FST_API fst_status fst_run_dots_read(const char *path, const char *key, const ch
  * known. */
 FST_API char *fst_run_json_in(const fst_params *params, const fst_run_result *result,
                               const fst_ramp_point *ramp, size_t ramp_count, fst_shown_units units);
+
+/* The same of a world, with the state's twelve numbers, `frame`, and the end on the laboratory's axes: `final_time`,
+ * `final_lab`, `final_lab_si`. */
+FST_API char *fst_world_json(const fst_params *params, const fst_world_result *result, fst_shown_units units);
+
+/* A motion that repeats itself with the drive: `period`, `frame`, `multipliers` (pairs), `stable`, `state`, `residual`.
+ */
+FST_API char *fst_world_orbit_json(const fst_params *params, const fst_world_orbit *orbit);
+
+/* The field of everything at a time and a place (fst_field_at()): `time`, `place`, `b`, `grad`, and in SI where B0 is
+ * known. */
+FST_API char *fst_field_at_json(const fst_params *params, double time, const double place[3], const double b[3],
+                                double grad[3][3]);
 
 /* The field at (x, y), as JSON like the above: `x`, `y`, `b` (3), `grad` (3 x 3), in the magnet's frame,
  * scaled; `height`, and the `force` and `load` of fst_field_pull(); with FST_SHOWN_LAB or FST_SHOWN_SI also

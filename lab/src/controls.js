@@ -18,6 +18,9 @@ export const SHOWN = {
 };
 const MAIN = ["drive.frequency", "friction.law", "friction.mu", "model.kappa", "magnet.depth", "bead.radius"];
 const HIDDEN = new Set(["magnet.file", "magnet.parts"]);
+/* What the page has no controls for: it shows one bead on a flat plate in air, over a magnet that turns steadily. */
+const BEYOND = /^(medium|wave|world|coils|field|beads)\.|^plate\.(shape|bowl_radius|tilt)|^drive\.(waveform|amplitude|chirp|table)|^contact\.pair|^model\.chi$|^run\.(method|step|duration)$/;
+export const isBeyond = (key) => BEYOND.test(key);
 
 function element(name, attributes = {}, ...children) {
     const made = document.createElement(name);
@@ -55,7 +58,7 @@ export class Controls {
     build(main, others) {
         const groups = new Map();
         for (const row of this.core.parameters) {
-            if (HIDDEN.has(row.key) || row.kind === "text") // a page reads no files
+            if (HIDDEN.has(row.key) || isBeyond(row.key) || row.kind === "text") // a page reads no files
                 continue;
             const made = this.row(row);
             if (MAIN.includes(row.key)) {

@@ -26,6 +26,7 @@ from ._native import ffi as _ffi
 from ._native import lib as _lib
 from ._native import text_of as _text_of
 from ._quantities import UNSET
+from .beads import Beads, BeadsRun, BeadsTrajectory
 from .bead import Bead, Groups, MaterialWarning
 from .files import export, paper, read, schema
 from .films import track
@@ -55,6 +56,9 @@ def __getattr__(name: str) -> str:
 __all__ = [
     "BadInput",
     "Bead",
+    "Beads",
+    "BeadsRun",
+    "BeadsTrajectory",
     "Branch",
     "FestoonError",
     "Fit",

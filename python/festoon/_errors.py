@@ -129,4 +129,6 @@ def exception_of(code: int, where: str, sentence: str) -> FestoonError:
     kind = ERRORS.get(code, FestoonError)
     if kind in (BadInput, InputOutput) and sentence.endswith(os.strerror(errno.ENOENT)):
         kind = MissingFile
+    elif kind is InputOutput and sentence.endswith(os.strerror(errno.ENOMEM)):
+        kind = OutOfMemory
     return kind(place_in_python(where), sentence_in_python(sentence))

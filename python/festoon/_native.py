@@ -1,5 +1,6 @@
 """The library behind the module: errors as exceptions, calls that obey Ctrl-C, arrays over C memory."""
 
+import _thread
 import os
 import threading
 from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Optional, Tuple, Type
@@ -141,7 +142,11 @@ class Watch:
 
         self._apart = True
         try:
-            threading.Thread(target=work, args=(self, arguments, keeping), name="festoon-apart", daemon=True).start()
+            # Not by threading.Thread, whose start() waits for ever for a thread that gets no memory.
+            try:
+                _thread.start_new_thread(work, (self, arguments, keeping))
+            except RuntimeError as said:  # so Python says that there is no memory for one
+                raise OutOfMemory("", str(said)) from None
             while not ended.wait(0.03):
                 told, self._told = self._told, None
                 if told is not None:

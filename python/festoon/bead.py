@@ -46,7 +46,7 @@ def key_of(keyword: str) -> str:
 def known_key(keyword: str) -> str:
     """The key of a keyword; one without a group is a short one, or wrong: the nearest keyword is named."""
     key = key_of(keyword)
-    if "." in key:
+    if "." in key or key == "coils":
         return key  # the library looks at it
     names = {of.split(".")[1]: keyword_of(of) for of in reversed(PARAMETERS)}
     names.update({keyword_of(of): keyword_of(of) for of in PARAMETERS})
@@ -161,6 +161,8 @@ class Bead(Parameters):
         for key in sorted(given, key=lambda key: (key != "magnet.shape", key != "model.kappa")):
             if key == "magnet.parts":
                 self._set_parts(given[key])
+            elif key not in PARAMETERS and isinstance(given[key], (list, tuple, np.ndarray)):
+                self._set_list(key, given[key])
             else:
                 call(lib.fst_params_set, self._params, key.encode(), value_text(given[key], key).encode())
         for one, two in itertools.combinations(given, 2):
@@ -185,6 +187,8 @@ class Bead(Parameters):
             self._map = ffi.gc(field_map[0], lib.fst_field_map_free) if field_map[0] else None
         model = ffi.new("fst_model **")
         call(lib.fst_model_new, self._params, model)
+        if self._params.bead_count and type(self) is Bead:
+            raise BadInput("beads", "this scene lists several beads: festoon.Beads(scene) takes them")
         self._made = ffi.gc(model[0], lib.fst_model_free)
 
     @property
@@ -207,12 +211,37 @@ class Bead(Parameters):
                 raise BadInput(f"magnet.parts[{i}]", "a part needs its kind: cuboid, cylinder, sphere or dipole")
             for name in sorted(part, key=lambda name: name != "kind"):
                 value, key = part[name], f"magnet.parts[{i}].{name}"
-                if name == "kind":
+                if name in ("kind", "motion"):
                     call(lib.fst_params_set, self._params, key.encode(), str(value).encode())
                     continue
                 single = isinstance(value, str) or np.ndim(value) == 0
                 for k, number in enumerate([value] if single else value):
                     call(lib.fst_params_set, self._params, f"{key}[{k}]".encode(), value_text(number, key).encode())
+
+    def _set_list(self, key: str, values: Any) -> None:
+        """A vector, as field__uniform=[0, 0, "50 uT"], or coils=[{"radius": 0.05, "current": 1}, ...]."""
+        if key == "coils":
+            self._params.coil_count = 0
+        for i, value in enumerate(values):
+            if isinstance(value, Mapping):
+                for name, number in value.items():
+                    many = isinstance(number, (list, tuple, np.ndarray))
+                    for k, one in enumerate(number if many else [number]):
+                        row = f"{key}[{i}].{name}" + (f"[{k}]" if many else "")
+                        call(lib.fst_params_set, self._params, row.encode(), value_text(one, row).encode())
+            elif value is not None:
+                call(lib.fst_params_set, self._params, f"{key}[{i}]".encode(), value_text(value, key).encode())
+
+    def _vectors(self) -> Dict[str, List[Optional[float]]]:
+        """The vectors of which a component is given, in SI; None for one that is not."""
+        found: Dict[str, List[Optional[float]]] = {}
+        text = ffi.new("char[]", 64)
+        for i in range(lib.fst_param_count(), lib.fst_params_row_count(self._params)):
+            if lib.fst_param_part(i) < 0 and lib.fst_param_bead(i) < 0 and lib.fst_param_coil(i) < 0:
+                lib.fst_params_get(self._params, i, text, 64)
+                key = text_of(lib.fst_param_at(i).key).split("[")[0]
+                found.setdefault(key, []).append(float(text_of(text)) if text[0] != b"\0" else None)
+        return {key: vector for key, vector in found.items() if any(value is not None for value in vector)}
 
     @property
     def magnet__parts(self) -> List[Dict[str, Any]]:
@@ -220,10 +249,16 @@ class Bead(Parameters):
         parts: List[Dict[str, Any]] = []
         for i in range(lib.fst_param_count(), lib.fst_params_row_count(self._params)):
             row, text = lib.fst_param_at(i), ffi.new("char[]", 64)
-            number, name = lib.fst_param_part(i), text_of(row.key).split("].", 1)[1]
+            number = lib.fst_param_part(i)
+            if not 0 <= number < self._params.magnet_part_count:
+                continue
+            name = text_of(row.key).split("].", 1)[1]
             lib.fst_params_get(self._params, i, text, 64)
             if name == "kind":
                 parts.append({"kind": text_of(text)})
+            elif name == "motion":
+                if text_of(text) != "turning":
+                    parts[number]["motion"] = text_of(text)
             elif text[0] != b"\0":
                 parts[number].setdefault(name.split("[")[0], []).append(float(text_of(text)))
         for part in parts:
@@ -485,6 +520,7 @@ class Bead(Parameters):
                 words.append(f"{keyword_of(key)}={text!r}" if kind == "str" else f"{keyword_of(key)}={text}")
         if self._params.magnet_part_count:
             words.append(f"magnet__parts={self.magnet__parts!r}")
+        words += [f"{keyword_of(key)}={vector}" for key, vector in self._vectors().items()]
         return f"Bead({', '.join(words)})"
 
     def _repr_html_(self) -> str:

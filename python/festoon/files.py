@@ -8,6 +8,7 @@ from typing import Any, Dict, Iterable, List, Optional, Union
 from ._errors import BadInput, FestoonError, Unavailable
 from ._native import call, ffi, lib, path_bytes, strings, take_text
 from ._quantities import units_of
+from .beads import read as read_beads
 from .orbits import read_branch
 from .sweeps import read_sweep
 from .trajectories import read as read_trajectory
@@ -135,7 +136,7 @@ def read(path: Path) -> Any:
 
     Returns
     -------
-    Trajectory, Sweep or Branch
+    Trajectory, BeadsTrajectory, Sweep or Branch
         Scaled, as what was written.
 
     Raises
@@ -152,4 +153,6 @@ def read(path: Path) -> Any:
         return read_sweep(path)
     if name.endswith(".json"):
         return read_branch(path)
-    return read_trajectory(path)
+    has_beads = ffi.new("int *")
+    call(lib.fst_trajectory_has_beads, path_bytes(path), has_beads)
+    return read_beads(path) if has_beads[0] else read_trajectory(path)

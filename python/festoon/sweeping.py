@@ -2,15 +2,14 @@
 
 import os
 import tempfile
-import threading
 import warnings
 from typing import Any, Dict, List, Optional, Tuple
 
 import numpy as np
 
-from ._errors import BadInput, Interrupted, OutOfMemory
-from ._native import Watch, error_of, ffi, lib, new_error, options_of, path_bytes, places_of, strings
-from ._progress import Progress, bar_for
+from ._errors import BadInput, OutOfMemory
+from ._native import Watch, ffi, lib, options_of, path_bytes, places_of, strings
+from ._progress import Progress
 from ._quantities import value_text
 from .bead import Bead, known_key
 from .sweeps import Path, Sweep, grid_of, read_sweep, sweep_of
@@ -28,35 +27,6 @@ def axis_text(keyword: str, values: Any) -> str:
     return f"{known_key(keyword)}={','.join(words)}"
 
 
-def _work(batch: Any, threads: List[threading.Thread], count: int, failures: List[BaseException]) -> None:
-    """Let so many threads do the batch; they are in `threads` before they begin, so that none is left behind."""
-
-    def work() -> None:
-        try:
-            error = new_error()
-            status = lib.pyf_batch_work(batch, error)
-            if status in (lib.FST_OK, lib.FST_INTERRUPTED):
-                return
-            failures.append(error_of(error))
-        except MemoryError as no_memory:
-            failures.append(no_memory)
-        lib.pyf_batch_stop(batch)
-
-    for i in range(count):
-        threads.append(threading.Thread(target=work, name=f"festoon-{i}", daemon=True))
-        threads[-1].start()
-
-
-def _join(threads: List[threading.Thread]) -> None:
-    """Wait for threads that have been told to stop; a second Ctrl-C does not leave them behind."""
-    for thread in threads:
-        while thread.is_alive():
-            try:
-                thread.join()
-            except KeyboardInterrupt:
-                pass
-
-
 def _in_memory(
     grid: Any, field_map: Any, threads: int, lanes: int, portable: bool, progress: Progress
 ) -> Sweep:
@@ -66,28 +36,9 @@ def _in_memory(
         raise OutOfMemory("sweep", f"no memory for {lib.fst_grid_points(grid)} rows")
     batch = ffi.gc(made, lib.pyf_batch_free)
     points = int(lib.fst_grid_points(grid))
-    failures: List[BaseException] = []
-    workers: List[threading.Thread] = []
-    bar = bar_for(progress, "sweep")
-    whole = False
-    try:
-        _work(batch, workers, max(1, min(threads, points)), failures)
-        for worker in workers:
-            while worker.is_alive():
-                worker.join(0.05)
-                done = int(lib.pyf_batch_done(batch))
-                bar.tell(done / points, f"{done} of {points} runs")
-        whole = True
-    except KeyboardInterrupt:
-        lib.pyf_batch_stop(batch)
-        _join(workers)
-        raise Interrupted(sweep_of(batch, grid, field_map)) from None
-    finally:
-        bar.end(whole)
-        lib.pyf_batch_stop(batch)
-        _join(workers)
-    if failures:
-        raise failures[0]
+    with Watch(progress, lambda: sweep_of(batch, grid, field_map), "sweep") as watch:
+        watch.call(lib.pyf_batch_work, batch, max(1, min(threads, points)), watch.told)
+        watch.tell(1.0, f"{points} of {points} runs")
     return sweep_of(batch, grid, field_map)
 
 
@@ -207,6 +158,8 @@ def sweep(
     ((2,), ['counter-rotating', 'counter-rotating'])
     """
     bead = (bead or Bead())._asked()
+    if bead._params.bead_count:
+        raise BadInput("sweep", "it is for one bead: festoon sweep SCENE sweeps several, and festoon.export() writes its rows")
     texts = [axis_text(keyword, values) for keyword, values in axes.items()]
     if threads is not None and threads < 0:
         raise BadInput("threads", f"{threads} is no number of threads: 1 or more, or 0 for all processors")

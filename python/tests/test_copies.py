@@ -127,7 +127,7 @@ def test_parameters_are_unset():
     assert given.kappa == 1.5 and given.replace(kappa=fs.UNSET).kappa == magnet.kappa != 1.5
     with pytest.raises(fs.BadInput, match="unknown key"):
         bead.replace(kapa=fs.UNSET)
-    with pytest.raises(fs.BadInput, match="run.method is gone"):
+    with pytest.raises(fs.BadInput, match="splitting is gone"):
         fs.Bead(run__method="splitting")
 
 

@@ -43,6 +43,10 @@ static const unit_row unit_rows[] = {
     {FST_UNIT_ENERGY, "J", 0, 1, 1},         {FST_UNIT_ENERGY, "mJ", -3, 1, 1},
     {FST_UNIT_ENERGY, "uJ", -6, 1, 1},       {FST_UNIT_POWER, "W", 0, 1, 1},
     {FST_UNIT_POWER, "mW", -3, 1, 1},        {FST_UNIT_POWER, "uW", -6, 1, 1},
+    {FST_UNIT_VISCOSITY, "Pa s", 0, 1, 1},   {FST_UNIT_VISCOSITY, "mPa s", -3, 1, 1},
+    {FST_UNIT_PER_LENGTH, "1/m", 0, 1, 1},   {FST_UNIT_PER_LENGTH, "1/cm", 2, 1, 1},
+    {FST_UNIT_PER_LENGTH, "1/mm", 3, 1, 1},  {FST_UNIT_CURRENT, "A", 0, 1, 1},
+    {FST_UNIT_CURRENT, "mA", -3, 1, 1},      {FST_UNIT_CURRENT, "kA", 3, 1, 1},
 };
 static const size_t unit_row_count = sizeof unit_rows / sizeof unit_rows[0];
 

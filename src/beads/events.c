@@ -1,12 +1,16 @@
 /* events.c - what ends the present state of contacts, and which one follows.
  *
  * May not become negative: the load of a pressing contact; the share theta of a grazing one, and 1 - theta; the
- * gap of an open one; the way to the plate's edge.  An event is armed where its value is positive at the start
+ * gap of an open one; the way to the plate's edge or to the magnet.  An event is armed where its value is positive at the start
  * of the step:
  *
  *     gap just opened     0 +- rounding: not armed up to ARMED; if it sinks first, the step is shortened
  *     load just begun     may be 0 too: not positive at the start, and negative at the end: STALE, an event
  *                         at the start
+ *
+ * Under dry friction also: what the greatest friction of a sticking contact leaves over what it needs; the speed along
+ * the push of a slip that begins, which grows from 0, and what it lacks to go on by itself (near enough is good enough
+ * there).  A slip is over where it is smaller than world->still.
  *
  * Between the ends of a step a cubic through gaps and rates shows a contact that touches and parts.
  */
@@ -21,21 +25,45 @@
 #include "beads/select.h"
 
 enum { MOST_CROWD = 1000 };
-static const double ARMED = 1e-11, SUNK = -1e-13, CROWDED = 1e-3, STILL = 1e-6, AT_ONCE = 1e-12;
+static const double ARMED = 1e-11, SUNK = 1e-13, CROWDED = 1e-3, STILL = 1e-6, AT_ONCE = 1e-12,
+                    JUST_BEGUN = 0.1;
+static const double STRAYS = 10.0,
+                    ALONG = 0.9; /* a slip this fast, in world->still, is along its push by so much */
+static const double FREE_WITHIN =
+    3.0; /* a slip that begins may be faster than world->free_at by so many of it */
 
 /* What may not become negative at contact k: the first value, or the second, which only a grazing one has. */
-enum { FIRST, SECOND, VALUES };
+enum { FIRST, SECOND, THIRD, VALUES };
 static double value_of(const beads_flow *flow, const beads_look *look, int k, int value)
 {
-    if (value == SECOND)
-        return flow->modes.contact[k] == BEADS_GRAZING ? 1.0 - look->held[k] : INFINITY;
-    return flow->modes.contact[k] == BEADS_OPEN ? look->gap[k] : look->held[k];
+    const double held = look->held[k], *f = look->friction[k];
+    const int mode = flow->modes.contact[k];
+    if (value == FIRST)
+        return mode == BEADS_OPEN ? look->gap[k] : held;
+    if (mode == BEADS_GRAZING)
+        return value == SECOND ? 1.0 - held : INFINITY;
+    if (mode == BEADS_STICKING)
+        return value == SECOND
+                   ? flow->world.contact[k].mu * held * (1.0 + FST_RELEASE_SLACK) - sqrt(beads_dot(f, f))
+                   : INFINITY;
+    if (mode != BEADS_BEGINNING)
+        return INFINITY;
+    const double speed = beads_dot(look->slip[k], look->way[k]);
+    return value == SECOND ? speed : flow->world.free_at - speed;
+}
+
+/* Below this size a value that was not armed is no event: a gap just opened, and a slip just begun. */
+static double rounding_of(const beads_flow *flow, int k, int value, double of_gap)
+{
+    const int mode = flow->modes.contact[k];
+    if (mode == BEADS_OPEN)
+        return of_gap;
+    return mode == BEADS_BEGINNING && value == SECOND ? flow->world.still : 0.0;
 }
 
 static int is_armed(const beads_flow *flow, int k, int value)
 {
-    const double least = flow->modes.contact[k] == BEADS_OPEN ? ARMED : 0.0;
-    return value_of(flow, &flow->start, k, value) > least;
+    return value_of(flow, &flow->start, k, value) > rounding_of(flow, k, value, ARMED);
 }
 
 /* The least value of contact k at a look that was armed at the start of the step. */
@@ -51,23 +79,21 @@ static double least_armed(const beads_flow *flow, const beads_look *look, int k)
 /* Whether a value of contact k was not armed, and is negative at the end. */
 static int fell_unarmed(const beads_flow *flow, int k)
 {
-    const double least = flow->modes.contact[k] == BEADS_OPEN ? SUNK : 0.0;
     for (int value = FIRST; value < VALUES; ++value)
-        if (!is_armed(flow, k, value) && value_of(flow, &flow->end, k, value) < least)
+        if (!is_armed(flow, k, value) &&
+            value_of(flow, &flow->end, k, value) < -rounding_of(flow, k, value, SUNK))
             return 1;
     return 0;
-}
-
-static double to_edge(const beads_flow *flow, const double *y, int i)
-{
-    const double *bead = y + FST_BEAD_NUMBERS * i;
-    return flow->world.plate_radius - sqrt(bead[0] * bead[0] + bead[1] * bead[1]);
 }
 
 double beads_least(const beads_flow *flow, const beads_look *look, const double *y, int *which)
 {
     double least = INFINITY;
     *which = -1;
+    if (flow->paced) {
+        least = flow->rest - y[FST_BEAD_NUMBERS * flow->world.count + BEADS_TIME];
+        *which = BEADS_LIMIT;
+    }
     for (int k = 0; k < flow->world.contacts; ++k) {
         const int counts = beads_can_meet(&flow->world, &flow->modes, k);
         const double value = counts ? least_armed(flow, look, k) : INFINITY;
@@ -77,13 +103,37 @@ double beads_least(const beads_flow *flow, const beads_look *look, const double 
         }
     }
     for (int i = 0; i < flow->world.count; ++i) {
-        const double value = flow->modes.gone[i] ? INFINITY : to_edge(flow, y, i);
+        int unused;
+        const double value = flow->modes.gone[i] ? INFINITY : beads_way_out(&flow->world, i, y, &unused);
         if (value < least) {
             least = value;
             *which = BEADS_CONTACTS + i;
         }
     }
     return least;
+}
+
+int beads_is_near_enough(const beads_flow *flow, int which, double value)
+{
+    return value <= 0 && which < BEADS_CONTACTS && flow->modes.contact[which] == BEADS_BEGINNING &&
+           value == value_of(flow, &flow->end, which, THIRD) && value > -FREE_WITHIN * flow->world.free_at;
+}
+
+/* Whether the slip of a contact is over at the end of the step. */
+static int is_over(const beads_flow *flow, int k)
+{
+    const double *before = flow->start.slip[k], *after = flow->end.slip[k], still = flow->world.still;
+    const double size2 = beads_dot(after, after);
+    return flow->modes.contact[k] == BEADS_PRESSING && flow->world.contact[k].mu > 0 &&
+           size2 <= still * still && size2 < beads_dot(before, before);
+}
+
+/* Whether a slip that begins does not go where it is pushed, because that changed: it goes on by its own direction. */
+static int has_strayed(const beads_flow *flow, const beads_look *look, int k)
+{
+    const double speed = sqrt(beads_dot(look->slip[k], look->slip[k]));
+    return flow->modes.contact[k] == BEADS_BEGINNING && speed > STRAYS * flow->world.still &&
+           beads_dot(look->slip[k], look->way[k]) < ALONG * speed;
 }
 
 /* The fraction of the step at which the cubic through gaps and rates is least, if it is negative there; else 0.
@@ -101,6 +151,13 @@ static double brushes_at(const beads_flow *flow, int k)
     return x > 1e-6 && x < 1.0 && least < 0 ? x : 0.0;
 }
 
+/* Whether a slip begins at the start of the step: then it is not over yet, however the step ends. */
+static int has_just_begun(const beads_flow *flow, int k)
+{
+    return flow->modes.contact[k] == BEADS_BEGINNING &&
+           value_of(flow, &flow->start, k, SECOND) > -JUST_BEGUN * flow->world.still;
+}
+
 beads_verdict beads_judge(const beads_flow *flow, int *which, double *value)
 {
     int brushing = -1;
@@ -110,7 +167,7 @@ beads_verdict beads_judge(const beads_flow *flow, int *which, double *value)
         const int open = flow->modes.contact[k] == BEADS_OPEN;
         *which = k;
         if (fell_unarmed(flow, k))
-            return open ? BEADS_SINKS : BEADS_STALE;
+            return open || has_just_begun(flow, k) ? BEADS_SINKS : BEADS_STALE;
         if (open && is_armed(flow, k, FIRST) && brushing < 0 && brushes_at(flow, k) > 0)
             brushing = k;
     }
@@ -118,9 +175,14 @@ beads_verdict beads_judge(const beads_flow *flow, int *which, double *value)
     if (*value < 0)
         return BEADS_CROSSES;
     *which = -1;
-    if (brushing >= 0)
+    if (brushing >= 0) {
         *value = brushes_at(flow, brushing);
-    return brushing >= 0 ? BEADS_BRUSHES : BEADS_GOOD;
+        return BEADS_BRUSHES;
+    }
+    for (int k = 0; k < flow->world.contacts; ++k)
+        if (is_over(flow, k) || has_strayed(flow, &flow->end, k))
+            *which = k;
+    return BEADS_GOOD;
 }
 
 /* ------------------------------------------------------------------ what happens */
@@ -140,6 +202,10 @@ static void note_changes(beads_flow *flow, const beads_modes *before)
         const int plate = flow->world.contact[k].second < 0;
         if (was == is)
             continue;
+        if (was == BEADS_STICKING && is != BEADS_OPEN)
+            note(flow, FST_BEAD_EVENT_SLIP, k, 0.0);
+        if (is == BEADS_STICKING)
+            note(flow, FST_BEAD_EVENT_STICK, k, 0.0);
         if (is == BEADS_OPEN)
             note(flow, plate ? FST_BEAD_EVENT_LIFT : FST_BEAD_EVENT_PART, k, 0.0);
         else if (is == BEADS_GRAZING) {
@@ -150,13 +216,30 @@ static void note_changes(beads_flow *flow, const beads_modes *before)
     }
 }
 
-static fst_status no_state(const beads_flow *flow, fst_error *error)
+/* Dry friction leaves so many motions. */
+static void note_paradox(beads_flow *flow, int motions, const int *touching)
+{
+    fst_beads_paradox *paradox = &flow->paradox;
+    paradox->time = flow->t.high;
+    paradox->motions = motions;
+    paradox->touch_count = 0;
+    for (int k = 0; k < flow->world.contacts; ++k)
+        if (touching[k]) {
+            paradox->touches[paradox->touch_count][0] = flow->world.contact[k].first;
+            paradox->touches[paradox->touch_count++][1] = flow->world.contact[k].second;
+        }
+}
+
+/* Of the contacts that touch, no state was found. */
+static fst_status no_state(beads_flow *flow, const int *touching, fst_error *error)
 {
     char where[64];
     (void)snprintf(where, sizeof where, "t = %.10g", flow->t.high);
+    if (beads_is_dry(&flow->world))
+        note_paradox(flow, 0, touching);
     return fst_fail(error, FST_NO_CONVERGENCE, where,
                     "no state of the contacts between beads and plate is consistent at %s; try another "
-                    "contact.pair_rate or start",
+                    "friction between beads or start",
                     where);
 }
 
@@ -188,26 +271,38 @@ static void find_touching(const beads_flow *flow, double slowest, int touching[B
                        (look.gap[k] < BEADS_TOUCH && fabs(look.rate[k]) < slowest));
 }
 
-/* Choose the contact state of what touches and does not part, each pressing at first. */
-static int settle(beads_flow *flow)
+/* Whether the state found is the only one; under viscous friction it is kept, whatever others there are. */
+static fst_status check_only(beads_flow *flow, const int *touching, fst_error *error)
 {
-    int touching[BEADS_CONTACTS];
-    beads_modes before;
-    memset(flow->modes.contact, BEADS_OPEN, sizeof flow->modes.contact);
-    find_touching(flow, flow->world.bounce_least, touching);
-    for (int k = 0; k < flow->world.contacts; ++k)
-        flow->modes.contact[k] = touching[k] ? BEADS_PRESSING : BEADS_OPEN;
-    beads_project(&flow->world, &flow->modes, flow->step.y);
-    before = flow->modes;
-    if (beads_select(&flow->world, flow->step.y, touching, &flow->modes))
-        return 1;
-    flow->modes = before;
-    return 0;
+    char where[64];
+    if (!beads_is_dry(&flow->world) ||
+        !beads_is_one_of_several(&flow->world, flow->step.y, touching, &flow->modes))
+        return FST_OK;
+    note_paradox(flow, 2, touching);
+    (void)snprintf(where, sizeof where, "t = %.10g", flow->t.high);
+    return fst_fail(
+        error, FST_NO_CONVERGENCE, where,
+        "dry friction leaves several motions at %s (a paradox of Painleve); try a smaller friction.mu", where);
 }
 
+static fst_status choose(beads_flow *flow, const int *touching, fst_error *error)
+{
+    if (!beads_select(&flow->world, flow->step.y, touching, &flow->modes))
+        return no_state(flow, touching, error);
+    return check_only(flow, touching, error);
+}
+
+/* Choose the contact state of what touches and does not part, each pressing or sticking at first. */
 fst_status beads_settle(beads_flow *flow, fst_error *error)
 {
-    return settle(flow) ? FST_OK : no_state(flow, error);
+    int touching[BEADS_CONTACTS];
+    for (int k = 0; k < flow->world.contacts; ++k)
+        if (flow->modes.contact[k] != BEADS_BEGINNING)
+            flow->modes.contact[k] = BEADS_OPEN;
+    find_touching(flow, flow->world.bounce_least, touching);
+    beads_close(&flow->world, flow->step.y, touching, &flow->modes);
+    beads_project(&flow->world, &flow->modes, flow->step.y);
+    return choose(flow, touching, error);
 }
 
 static fst_status collide(beads_flow *flow, fst_error *error)
@@ -222,8 +317,11 @@ static fst_status collide(beads_flow *flow, fst_error *error)
         if (touching[k] && before.contact[k] == BEADS_OPEN && look.rate[k] < -STILL)
             note(flow, flow->world.contact[k].second < 0 ? FST_BEAD_EVENT_LAND : FST_BEAD_EVENT_TOUCH, k,
                  -look.rate[k]);
-    if (!beads_collide(&flow->world, &flow->modes, touching, flow->step.y) || !settle(flow))
-        return no_state(flow, error);
+    if (!beads_collide(&flow->world, &flow->modes, touching, flow->step.y))
+        return no_state(flow, touching, error);
+    const fst_status status = beads_settle(flow, error);
+    if (status != FST_OK)
+        return status;
     flow->impacts += energy - beads_energy_now(flow);
     note_changes(flow, &before);
     return FST_OK;
@@ -234,13 +332,14 @@ static fst_status eject(beads_flow *flow, int bead, fst_error *error)
     const double energy = beads_energy_now(flow);
     int touching[BEADS_CONTACTS];
     flow->ejected[bead] = flow->t.high;
+    (void)beads_way_out(&flow->world, bead, flow->step.y, &flow->at_magnet[bead]);
     flow->modes.gone[bead] = 1;
     for (int k = 0; k < flow->world.contacts; ++k)
         if (!beads_can_meet(&flow->world, &flow->modes, k))
             flow->modes.contact[k] = BEADS_OPEN;
     flow->carried += energy - beads_energy_now(flow);
     find_touching(flow, STILL, touching);
-    return beads_select(&flow->world, flow->step.y, touching, &flow->modes) ? FST_OK : no_state(flow, error);
+    return choose(flow, touching, error);
 }
 
 /* Whether a contact that has just begun to graze wants more than its whole friction.  Then it neither grazes nor presses:
@@ -249,6 +348,36 @@ static int opens_with_others(const beads_flow *flow, int k)
 {
     return flow->modes.contact[k] == BEADS_GRAZING && flow->start.held[k] > 0.5 &&
            flow->t.high - flow->grazes_since[k] < AT_ONCE;
+}
+
+/* The next state of contact k under dry friction, of which the first value that ended the last one tells. */
+static int go_over(beads_flow *flow, const int *touching, int k)
+{
+    static const unsigned char next[][VALUES] = {
+        [BEADS_PRESSING] = {BEADS_OPEN},
+        [BEADS_STICKING] = {BEADS_OPEN, BEADS_BEGINNING},
+        [BEADS_BEGINNING] = {BEADS_OPEN, BEADS_STICKING, BEADS_PRESSING}};
+    unsigned char then = BEADS_STICKING;
+    int ended = FIRST;
+    const int mode = flow->modes.contact[k];
+    for (int value = SECOND; value < VALUES; ++value)
+        if (value_of(flow, &flow->start, k, value) < value_of(flow, &flow->start, k, ended))
+            ended = value;
+    if (mode != BEADS_PRESSING || sqrt(beads_dot(flow->start.slip[k], flow->start.slip[k])) > flow->world.still)
+        then = next[mode][ended];
+    if (has_strayed(flow, &flow->start, k))
+        then = BEADS_PRESSING;
+    flow->modes.contact[k] = then;
+    if (then == BEADS_STICKING)
+        beads_project(&flow->world, &flow->modes, flow->step.y);
+    if (beads_is_consistent(&flow->world, flow->step.y, touching, &flow->modes))
+        return 1;
+    if (then == BEADS_STICKING) {
+        flow->modes.contact[k] = BEADS_BEGINNING;
+        if (beads_is_consistent(&flow->world, flow->step.y, touching, &flow->modes))
+            return 1;
+    }
+    return beads_select(&flow->world, flow->step.y, touching, &flow->modes);
 }
 
 fst_status beads_happen(beads_flow *flow, int which, fst_error *error)
@@ -264,7 +393,9 @@ fst_status beads_happen(beads_flow *flow, int which, fst_error *error)
         return collide(flow, error);
     find_touching(flow, STILL, touching);
     int found;
-    if (opens_with_others(flow, which)) {
+    if (flow->world.contact[which].mu > 0) {
+        found = go_over(flow, touching, which);
+    } else if (opens_with_others(flow, which)) {
         flow->modes.contact[which] = BEADS_OPEN;
         found = beads_select(&flow->world, flow->step.y, touching, &flow->modes);
     } else {
@@ -272,7 +403,7 @@ fst_status beads_happen(beads_flow *flow, int which, fst_error *error)
                               &flow->modes);
     }
     if (!found)
-        return no_state(flow, error);
+        return no_state(flow, touching, error);
     note_changes(flow, &before);
-    return FST_OK;
+    return check_only(flow, touching, error);
 }

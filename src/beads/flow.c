@@ -11,6 +11,14 @@
  *
  * Then events.c changes the contacts, and the next step begins.  Repeating the step instead of asking a dense
  * output keeps the full order, and puts the event where the steps themselves have it.
+ *
+ * Dry friction stops a slip s in a finite time, while its direction turns ever faster, which no method of high order
+ * follows.  While a contact slips so, steps are measured in a time theta with
+ *
+ *     dt/dtheta = (1 + s_r^2 (1/s_1^2 + 1/s_2^2 + ...))^(-1/2)
+ *
+ * in which slips fall for ever, and smoothly; the single bead's way (ode/automaton.inl).  The time is then one of the
+ * numbers of the step, and the end of the way an event.  A slip is over where nothing feels the rest (world->still).
  */
 #include "beads/flow.h"
 
@@ -25,18 +33,23 @@
 
 enum { MOST_LOCATING = 100, MOST_CUTS = 60 };
 static const double LOCATED = 1e-16, LEAST_CUT = 1e-9;
+static const double FIRST_PACED = 0.05;                      /* first step after the measure of time changed */
+static const double LEAST_DIGITS = 0.03;                     /* relative error of a slip that a step may make */
+static const double CAPTURED = 1e-3, LEAST_CAPTURED = 1e-13; /* world->still, in tolerances, and at least */
 
 void beads_derivatives(const beads_world *world, const beads_modes *modes, const beads_look *look,
                        const double *y, double *dy)
 {
     double *integral = dy + FST_BEAD_NUMBERS * world->count;
     memcpy(integral, look->power, sizeof look->power);
+    const double omega =
+        world->surrounded ? fst_frame_rate(&world->around, beads_time(world, y)) : world->omega;
     for (int i = 0; i < world->count; ++i) {
-        const double *bead = y + FST_BEAD_NUMBERS * i, mass = world->body[i].mass;
-        const double omega = world->omega, inertia = world->body[i].inertia;
+        const double *bead = y + FST_BEAD_NUMBERS * i, mass = beads_moved_mass(&world->body[i]);
+        const double inertia = world->body[i].inertia;
         double *rate = dy + FST_BEAD_NUMBERS * i, accelerated[3], spun[3], turn[3];
         integral[BEADS_R + i] = sqrt(bead[0] * bead[0] + bead[1] * bead[1]);
-        integral[BEADS_LOAD + i] = look->held[i];
+        integral[BEADS_LOAD + i] = isnan(world->plate) ? bead[2] : beads_load(modes, look, i);
         if (modes->gone[i]) { /* stays where it is */
             memset(rate, 0, FST_BEAD_NUMBERS * sizeof *rate);
             continue;
@@ -54,6 +67,9 @@ void beads_derivatives(const beads_world *world, const beads_modes *modes, const
         rate[BEADS_V + 2] = accelerated[2];
         rate[BEADS_W + 2] = spun[2];
     }
+    integral[BEADS_TIME] = 1.0;
+    for (int i = 0; look->pace != 1.0 && i < FST_BEAD_NUMBERS * world->count + BEADS_INTEGRALS; ++i)
+        dy[i] *= look->pace;
 }
 
 /* The first stage at step.y. */
@@ -62,6 +78,10 @@ static void stand(beads_flow *flow)
     beads_look_at(&flow->world, &flow->modes, flow->step.y, &flow->start);
     beads_derivatives(&flow->world, &flow->modes, &flow->start, flow->step.y, flow->step.k[0]);
     ++flow->looks;
+    const int paced = flow->start.pace != 1.0;
+    if (paced != flow->paced)
+        flow->control.proposal = FIRST_PACED;
+    flow->paced = paced;
 }
 
 fst_status beads_begin(beads_flow *flow, const beads_world *world, const double *state, double rtol,
@@ -70,6 +90,9 @@ fst_status beads_begin(beads_flow *flow, const beads_world *world, const double 
     memset(flow, 0, sizeof *flow);
     flow->world = *world;
     flow->rtol = rtol;
+    flow->paradox.time = NAN;
+    flow->world.still = fmax(CAPTURED * rtol, LEAST_CAPTURED);
+    flow->world.free_at = sqrt(rtol);
     for (int i = 0; i < BEADS_DIM; ++i)
         flow->atol[i] = rtol;
     for (int i = 0; i < FST_BEADS_MOST; ++i)
@@ -107,6 +130,8 @@ static double locate(beads_flow *flow, double h, double at_start, double at_end,
 {
     fst_bracket z = {0.0, h, at_start, at_end, 0};
     const double close = LOCATED * (1.0 + fabs(flow->t.high));
+    if (beads_is_near_enough(flow, *which, at_end))
+        return h;
     for (int i = 0; i < MOST_LOCATING && z.hi - z.lo > close; ++i) {
         const double next = i % 8 == 7 ? 0.5 * (z.lo + z.hi) : fst_bracket_next(&z);
         if (!(next > z.lo && next < z.hi))
@@ -114,7 +139,7 @@ static double locate(beads_flow *flow, double h, double at_start, double at_end,
         make(flow, next);
         finish(flow);
         const double value = beads_least(flow, &flow->end, flow->step.end, which);
-        if (value == 0.0)
+        if (value == 0.0 || beads_is_near_enough(flow, *which, value))
             return next;
         fst_bracket_take(&z, next, value);
     }
@@ -124,23 +149,19 @@ static double locate(beads_flow *flow, double h, double at_start, double at_end,
     return z.hi;
 }
 
-static double turned_by(const double *from, const double *to)
-{
-    return atan2(from[0] * to[1] - from[1] * to[0], from[0] * to[0] + from[1] * to[1]);
-}
-
 /* The end of the step becomes the start of the next. */
 static void pass(beads_flow *flow, fst_twofold_double t)
 {
     beads_method_step *s = &flow->step;
     for (int i = 0; i < flow->world.count; ++i)
-        flow->turned[i] += turned_by(s->y + FST_BEAD_NUMBERS * i, s->end + FST_BEAD_NUMBERS * i);
-    for (int k = 0; k < flow->world.contacts; ++k) {
-        flow->widest[k] = fmax(flow->widest[k], flow->end.gap[k]);
-        if (flow->world.contact[k].second >= 0)
-            flow->twisted[k] += turned_by(flow->start.u[k], flow->end.u[k]);
+        flow->turned[i] += beads_turned_by(s->y + FST_BEAD_NUMBERS * i, s->end + FST_BEAD_NUMBERS * i);
+    if (flow->dense) {
+        beads_method_make_dense(s);
+        flow->during = flow->modes;
     }
     beads_method_next(s, s->omega);
+    s->y[FST_BEAD_NUMBERS * flow->world.count + BEADS_TIME] = 0.0;
+    flow->world.now = t.high;
     flow->start = flow->end;
     flow->t = t;
     ++flow->accepted;
@@ -161,6 +182,33 @@ static fst_status fail_at(const beads_flow *flow, fst_error *error)
                     where, flow->control.worst_error, flow->control.size);
 }
 
+/* The error of slips in the step, over what a step may make. */
+static double wrong_of_slips(const beads_flow *flow)
+{
+    static const int slot[8] = {0, 5, 6, 7, 8, 9, 10, 11};
+    static const double fifth[8] = {DOP_E5_1, DOP_E5_6,  DOP_E5_7,  DOP_E5_8,
+                                    DOP_E5_9, DOP_E5_10, DOP_E5_11, DOP_E5_12};
+    const beads_method_step *s = &flow->step;
+    double error[BEADS_NUMBERS] = {0.0}, worst = 0.0;
+    beads_look look;
+    if (!flow->paced)
+        return 0.0;
+    for (int i = 0; i < FST_BEAD_NUMBERS * flow->world.count; ++i)
+        for (int j = 0; j < 8; ++j)
+            error[i] += s->h * fifth[j] * s->k[slot[j]][i];
+    beads_look_at_gaps(&flow->world, &flow->modes, s->end, &look);
+    for (int k = 0; k < flow->world.contacts; ++k) {
+        if (flow->modes.contact[k] != BEADS_PRESSING || !(flow->world.contact[k].mu > 0))
+            continue;
+        beads_look_at_slip(&flow->world, k, s->end, &look);
+        const double least =
+            fmin(beads_dot(flow->start.slip[k], flow->start.slip[k]), beads_dot(look.slip[k], look.slip[k]));
+        beads_look_at_slip(&flow->world, k, error, &look);
+        worst = fmax(worst, beads_dot(look.slip[k], look.slip[k]) / least);
+    }
+    return sqrt(worst) / LEAST_DIGITS;
+}
+
 /* A step whose error is small enough. */
 static fst_status make_good(beads_flow *flow, double rest, fst_error *error)
 {
@@ -168,7 +216,8 @@ static fst_status make_good(beads_flow *flow, double rest, fst_error *error)
     fst_plan_step_double(control, REAL_EVERYWHERE, rest);
     for (;;) {
         make(flow, control->size);
-        const double wrong = beads_method_step_error(&flow->step, flow->rtol, flow->atol);
+        const double wrong =
+            fmax(beads_method_step_error(&flow->step, flow->rtol, flow->atol), wrong_of_slips(flow));
         const double factor = fst_step_factor_double(wrong);
         if (wrong <= 1.0) {
             fst_accept_step_double(control, REAL_EVERYWHERE, factor, FST_HOLD_AFTER_REJECTION);
@@ -190,36 +239,63 @@ static fst_status happen(beads_flow *flow, int which, fst_error *error)
     return status;
 }
 
-fst_status beads_go(beads_flow *flow, double limit, fst_error *error)
+/* Make the step that was good shorter where something happens within it.  Returns its length; *which: what happens at
+ * its end, or -1; *was_cut: it ends where it was not meant to; *stale: it happens at the start. */
+static double cut(beads_flow *flow, int *which, int *was_cut, int *stale)
 {
-    const fst_twofold_double way = {limit, 0.0};
-    const fst_status status = make_good(flow, fst_twofold_difference_double(way, flow->t), error);
-    if (status != FST_OK)
-        return status;
     double h = flow->step.h, value;
-    int which = -1, was_cut = 0, brushed = 0;
+    int brushed = 0;
+    *was_cut = *stale = 0;
     for (int cuts = 0;; ++cuts) {
-        const beads_verdict verdict = beads_judge(flow, &which, &value);
+        const beads_verdict verdict = beads_judge(flow, which, &value);
         const int too_short = cuts >= MOST_CUTS || h < LEAST_CUT;
-        if (verdict == BEADS_STALE || (verdict == BEADS_SINKS && too_short))
-            return happen(flow, which, error);
+        *stale = verdict == BEADS_STALE || (verdict == BEADS_SINKS && too_short);
+        if (*stale || verdict == BEADS_GOOD || (verdict == BEADS_BRUSHES && brushed))
+            return h;
+        *was_cut = 1;
         if (verdict == BEADS_CROSSES) {
             int unused;
             const double at_start = beads_least(flow, &flow->start, flow->step.y, &unused);
-            h = locate(flow, h, at_start, value, &which);
-            was_cut = 1;
+            return locate(flow, h, at_start, value, which);
         }
-        if (verdict == BEADS_GOOD || verdict == BEADS_CROSSES || (verdict == BEADS_BRUSHES && brushed))
-            break;
         brushed = verdict == BEADS_BRUSHES;
         h *= verdict == BEADS_SINKS ? 0.25 : value;
-        was_cut = 1;
         make(flow, h);
         finish(flow);
     }
-    pass(flow,
-         was_cut ? fst_twofold_add_double(flow->t, h) : fst_step_end_double(&flow->control, flow->t, limit));
-    return which >= 0 ? happen(flow, which, error) : FST_OK;
+}
+
+/* The time at the end of the step. */
+static fst_twofold_double time_at_end(const beads_flow *flow, double h, int which, int was_cut, double limit)
+{
+    const fst_twofold_double end = {limit, 0.0};
+    if (which == BEADS_LIMIT)
+        return end;
+    if (flow->paced)
+        return fst_twofold_add_double(flow->t,
+                                      flow->step.end[FST_BEAD_NUMBERS * flow->world.count + BEADS_TIME]);
+    return was_cut ? fst_twofold_add_double(flow->t, h) : fst_step_end_double(&flow->control, flow->t, limit);
+}
+
+fst_status beads_go(beads_flow *flow, double limit, fst_error *error)
+{
+    fst_waveform *drive = &flow->world.around.drive;
+    if (flow->world.surrounded) {
+        if (fst_waveform_enter(drive, flow->t.high))
+            stand(flow);
+        limit = fmin(limit, fst_waveform_jump(drive));
+    }
+    const fst_twofold_double way = {limit, 0.0};
+    flow->rest = fst_twofold_difference_double(way, flow->t);
+    const fst_status status = make_good(flow, flow->paced ? INFINITY : flow->rest, error);
+    if (status != FST_OK)
+        return status;
+    int which = -1, was_cut, stale;
+    const double h = cut(flow, &which, &was_cut, &stale);
+    if (stale)
+        return happen(flow, which, error);
+    pass(flow, time_at_end(flow, h, which, was_cut, limit));
+    return which >= 0 && which != BEADS_LIMIT ? happen(flow, which, error) : FST_OK;
 }
 
 fst_status beads_go_to(beads_flow *flow, double limit, fst_error *error)
@@ -230,9 +306,17 @@ fst_status beads_go_to(beads_flow *flow, double limit, fst_error *error)
     return status;
 }
 
+double beads_work(const beads_flow *flow, double energy_at_start)
+{
+    const double *integral = flow->step.y + FST_BEAD_NUMBERS * flow->world.count;
+    const double work = fmax(fabs(integral[BEADS_DRIVE]), integral[BEADS_PLATE] + integral[BEADS_PAIR] +
+                                                              integral[BEADS_MEDIUM] + flow->impacts);
+    return fmax(work, fabs(energy_at_start));
+}
+
 double beads_residual(const beads_flow *flow, double energy_at_start)
 {
     const double *integral = flow->step.y + FST_BEAD_NUMBERS * flow->world.count;
     return beads_energy_now(flow) - energy_at_start - integral[BEADS_DRIVE] + integral[BEADS_PLATE] +
-           integral[BEADS_PAIR] + flow->impacts + flow->carried;
+           integral[BEADS_PAIR] + integral[BEADS_MEDIUM] + flow->impacts + flow->carried;
 }

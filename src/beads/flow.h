@@ -42,13 +42,15 @@ typedef struct beads_flow {
     fst_step_control_double control;
     double rtol, atol[BEADS_DIM];
     fst_twofold_double t;
+    int paced;   /* steps are measured in theta (flow.c) */
+    double rest; /* of the way, at the start of the step */
+    fst_beads_paradox paradox;
     beads_look start, end;          /* at step.y and, after a tried step, at step.end */
     double impacts;                 /* energy that impacts took */
     double carried;                 /* energy of beads that are gone, with that between them and the others */
     double ejected[FST_BEADS_MOST]; /* when, or NAN */
+    int at_magnet[FST_BEADS_MOST];  /* whether that was because it touched the magnet */
     double turned[FST_BEADS_MOST];  /* angle of each bead about the axis, in the turning frame, unwrapped */
-    double twisted[BEADS_CONTACTS]; /* the same of the line between the beads of each pair */
-    double widest[BEADS_CONTACTS];  /* greatest gap of each contact at the ends of steps */
     int64_t counts[FST_BEAD_EVENTS];
     fst_bead_event events[FST_BEADS_EVENTS];
     int event_count;
@@ -56,6 +58,8 @@ typedef struct beads_flow {
     double crowded_at; /* the time at which events crowd, and how many there were */
     int crowd;
     uint64_t looks, accepted, rejected;
+    int dense;          /* each step that passes leaves its dense output, */
+    beads_modes during; /* and the modes that it had */
 } beads_flow;
 
 /* Begin at the state (12 numbers a bead), whose contacts are those with gaps below BEADS_TOUCH.  The world is
@@ -74,6 +78,9 @@ static inline double beads_energy_now(const beads_flow *flow)
 {
     return beads_energy(&flow->world, flow->modes.gone, flow->step.y);
 }
+
+/* The work that was done since, or the energy if that is greater. */
+double beads_work(const beads_flow *flow, double energy_at_start);
 
 double beads_residual(const beads_flow *flow, double energy_at_start);
 

@@ -2,12 +2,17 @@
 #ifndef FST_BEADS_GROUPS_H
 #define FST_BEADS_GROUPS_H
 
-#include "beads/flow.h"
+#include "beads/near.h"
 
-/* The groups of beads whose gaps never exceeded a tenth of their diameters since flow->widest was set to 0. */
-int beads_group(const beads_flow *flow, fst_bead_group groups[FST_BEADS_MOST]);
+/* The bonds of a state: pairs whose gap is less than a tenth of their distance in touch.  *bonds is to be freed. */
+fst_status beads_find_bonds(const beads_world *world, const int *gone, const double *y, beads_two **bonds,
+                            int *count, fst_error *error);
 
-/* The contact of two beads. */
-int beads_pair_number(const beads_world *world, int one, int other);
+/* Keep those of the bonds that are still there.  Returns how many there are. */
+int beads_keep_bonds(const beads_world *world, const int *gone, const double *y, beads_two *bonds, int count);
+
+/* The groups that these bonds make.  `groups` and `members` have room for as many as there are beads. */
+int beads_group(int count, const int *gone, const beads_two *bonds, int bond_count, fst_bead_group *groups,
+                int *members);
 
 #endif

@@ -10,7 +10,7 @@
 /* Change the velocities of `y` by the impulses of the contacts `touching`. 0: they were not found. */
 int beads_collide(const beads_world *world, const beads_modes *modes, const int *touching, double *y);
 
-/* Put gaps and their rates to 0 at closed contacts, and moments to unit length. */
+/* Put gaps and their rates to 0 at closed contacts, slips where they stick, and moments to unit length. */
 void beads_project(const beads_world *world, const beads_modes *modes, double *y);
 
 #endif

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "beads/world.h"
+#include "beads/hold.h"
 
 static const double LEAST_PIVOT = 1e-11, LIFT = 1e-5;
 enum { MOST_ROUNDS = 60 };
@@ -30,7 +30,7 @@ static void swap(double *a, double *b)
     *b = kept;
 }
 
-int beads_solve(int count, double *matrix, double *right)
+static int solve_by_pivots(int count, double *matrix, double *right)
 {
     double greatest = 0.0;
     for (int i = 0; i < count * count; ++i)
@@ -93,19 +93,32 @@ static void solve_by_factor(int count, const double *factor, double *right)
     }
 }
 
-static int solve_lifted(int count, const double *matrix, double *right)
+/* x' of (A + d) x' = right: by Cholesky's factor of A + d, or from that itself where it is not symmetric. */
+static int solve_one_lifted(int count, const double *lifted, int symmetric, double *right)
 {
-    double lifted[BEADS_CONTACTS * BEADS_CONTACTS], x[BEADS_CONTACTS] = {0.0}, next[BEADS_CONTACTS];
+    double work[BEADS_TIES * BEADS_TIES];
+    if (symmetric) {
+        solve_by_factor(count, lifted, right);
+        return 1;
+    }
+    memcpy(work, lifted, (size_t)(count * count) * sizeof *work);
+    return solve_by_pivots(count, work, right);
+}
+
+static int solve_lifted(int count, const double *matrix, int symmetric, double *right)
+{
+    double lifted[BEADS_TIES * BEADS_TIES], x[BEADS_TIES] = {0.0}, next[BEADS_TIES];
     memcpy(lifted, matrix, (size_t)(count * count) * sizeof *lifted);
     for (int i = 0; i < count; ++i)
         lifted[i * count + i] *= 1.0 + LIFT;
-    if (!factor_of(count, lifted))
+    if (symmetric && !factor_of(count, lifted))
         return 0;
     double change = 1.0, size = 0.0;
     for (int round = 0; round < MOST_ROUNDS && change > 1e-15 * size; ++round) {
         for (int i = 0; i < count; ++i)
             next[i] = right[i] + LIFT * matrix[i * count + i] * x[i];
-        solve_by_factor(count, lifted, next);
+        if (!solve_one_lifted(count, lifted, symmetric, next))
+            return 0;
         change = size = 0.0;
         for (int i = 0; i < count; ++i) {
             change = fmax(change, fabs(next[i] - x[i]));
@@ -119,12 +132,24 @@ static int solve_lifted(int count, const double *matrix, double *right)
 
 int beads_solve_symmetric(int count, double *matrix, double *right, int *unique)
 {
-    double kept[BEADS_CONTACTS * BEADS_CONTACTS];
+    double kept[BEADS_TIES * BEADS_TIES];
     memcpy(kept, matrix, (size_t)(count * count) * sizeof *kept);
     if (factor_of(count, matrix)) {
         solve_by_factor(count, matrix, right);
         return 1;
     }
     *unique = 0;
-    return solve_lifted(count, kept, right);
+    return solve_lifted(count, kept, 1, right);
+}
+
+int beads_solve_any(int count, double *matrix, double *right, int *unique)
+{
+    double kept[BEADS_TIES * BEADS_TIES], wanted[BEADS_TIES];
+    memcpy(kept, matrix, (size_t)(count * count) * sizeof *kept);
+    memcpy(wanted, right, (size_t)count * sizeof *wanted);
+    if (solve_by_pivots(count, matrix, right))
+        return 1;
+    *unique = 0;
+    memcpy(right, wanted, (size_t)count * sizeof *right);
+    return solve_lifted(count, kept, 0, right);
 }

@@ -1,13 +1,11 @@
-/* run.c - a run of several beads, and what is told of it.
+/* run.c - a run of several beads, by either method.
  *
  *     start           discard - 1 turn   discard          half            end - 1 turn   end
  *       |-------------------|---------------|---------------|-------------------|----------|
  *                            groups at the                                       groups at the
  *                            window's start                                      end: the same?
  *
- * Means are those of the window from run.discard to the end.  A motion is undecided where its groups are others at
- * the end than at the window's start, or where the mean r of a bead in the second half of the window is another than
- * in the first.
+ * Means are those of the window from run.discard to the end (seen.c).
  */
 #include <math.h>
 #include <stdio.h>
@@ -16,333 +14,378 @@
 
 #include "base/constants.h"
 #include "base/error.h"
-#include "base/listed.h"
+#include "base/grow.h"
 #include "base/watch.h"
-#include "beads/groups.h"
+#include "beads/flow.h"
+#include "beads/seen.h"
 #include "beads/setup.h"
+#include "beads/steps.h"
 
-#define FST_BEADS_OPTIONS_COOKIE 0xfe570006u
-
-static const double UNSETTLED = 0.05;   /* greatest change of a mean r between the halves of the window */
-static const double WITH_MAGNET = 0.02; /* rates that differ by less, over omega, are the same */
-static const double AT_AXIS = 0.5;      /* a centre nearer than this part of a radius stays at the axis */
-static const double AT_REST = 1e-6;     /* speed in the turning frame below which a bead is locked */
+static const double LEAST_STEPS = 20, MOST_STEPS = 1e7;
 
 fst_beads_options fst_default_beads_options(void)
 {
-    return (fst_beads_options){.cookie = FST_BEADS_OPTIONS_COOKIE, .pair_rate = NAN, .chi = NAN};
+    return (fst_beads_options){.cookie = FST_BEADS_OPTIONS_COOKIE,
+                               .pair_rate = NAN,
+                               .pair_mu = NAN,
+                               .chi = NAN,
+                               .sample_spacing = NAN,
+                               .steps_per_turn = 2000};
 }
-
-const char *fst_bead_event_name(fst_bead_event_kind kind)
-{
-    FST_NAME_IN(FST_BEAD_EVENT_LIST, kind, "unknown");
-}
-
-const char *fst_bead_group_name(fst_bead_group_kind kind)
-{
-    FST_NAME_IN(FST_BEAD_GROUPS, kind, "unknown");
-}
-
-const char *fst_beads_outcome_name(fst_beads_outcome outcome)
-{
-    FST_NAME_IN(FST_BEADS_OUTCOMES, outcome, "unknown");
-}
-
-/* What a flow has added up at a moment. */
-typedef struct moment {
-    double time, integral[BEADS_INTEGRALS], impacts, turned[FST_BEADS_MOST], twisted[BEADS_CONTACTS];
-    double centre_turned[FST_BEADS_MOST], centre_r[FST_BEADS_MOST]; /* of the groups of the window */
-} moment;
 
 typedef struct run {
-    beads_flow flow;
+    fst_beads_method method;
+    beads_flow flow;   /* of the exact method */
+    beads_steps steps; /* of stepping */
+    beads_world world;
     fst_model *model;
-    const fst_progress *progress;
-    double end;
-    int group_count; /* at the window's start */
-    fst_bead_group groups[FST_BEADS_MOST];
-    double centre_turned[FST_BEADS_MOST], centre_r[FST_BEADS_MOST];
+    const fst_beads_options *options;
+    double end, spacing; /* of samples */
+    int64_t sampled;     /* samples so far */
+    double *state, *centres;
+    beads_groups groups; /* of the window's start */
+    beads_moment at[3];
+    beads_two *bonds; /* of the turn before the groups are found */
+    int bond_count;
 } run;
 
-static moment now(const run *r)
+static beads_seen see(const run *r)
 {
-    moment m;
-    m.time = r->flow.t.high;
-    m.impacts = r->flow.impacts;
-    memcpy(m.integral, r->flow.step.y + FST_BEAD_NUMBERS * r->flow.world.count, sizeof m.integral);
-    memcpy(m.turned, r->flow.turned, sizeof m.turned);
-    memcpy(m.twisted, r->flow.twisted, sizeof m.twisted);
-    memcpy(m.centre_turned, r->centre_turned, sizeof m.centre_turned);
-    memcpy(m.centre_r, r->centre_r, sizeof m.centre_r);
-    return m;
+    if (r->method == FST_BEADS_STEPPING) {
+        const beads_steps *s = &r->steps;
+        return (beads_seen){
+            &r->world, s->y, s->gone, s->ejected, s->turned, s->r, s->load, s->work, s->h * (double)s->steps,
+            s->impacts};
+    }
+    const beads_flow *flow = &r->flow;
+    const double *integral = flow->step.y + FST_BEAD_NUMBERS * r->world.count;
+    return (beads_seen){&r->world,    flow->step.y,       flow->modes.gone,      flow->ejected,
+                        flow->turned, integral + BEADS_R, integral + BEADS_LOAD, integral,
+                        flow->t.high, flow->impacts};
+}
+
+/* ------------------------------------------------------------------ samples */
+
+/* The closed contacts of a look, with their forces. */
+static int closed_contacts(const beads_world *world, const beads_modes *modes, const beads_look *look,
+                           fst_bead_touch *touches)
+{
+    int count = 0;
+    for (int k = 0; k < world->contacts; ++k)
+        if (modes->contact[k] != BEADS_OPEN) {
+            const beads_contact *c = &world->contact[k];
+            const double force = beads_load(modes, look, k);
+            touches[count++] = (fst_bead_touch){{c->first, c->second}, force};
+        }
+    return count;
+}
+
+/* The contacts of a step that press. */
+static int pressing_contacts(const beads_steps *steps, fst_bead_touch *touches)
+{
+    int count = 0;
+    for (int c = 0; c < steps->touch_count; ++c) {
+        const beads_touch *t = &steps->touches[c];
+        const int second = t->second == steps->world.count ? -1 : t->second;
+        if (t->push > 0)
+            touches[count++] = (fst_bead_touch){{t->first, second}, t->push / steps->h};
+    }
+    return count;
+}
+
+/* Tell the sample of the numbers y at the time t. */
+static fst_status tell_sample(run *r, double t, double *y, int count, const fst_bead_touch *touches,
+                              fst_error *error)
+{
+    for (int i = 0; i < r->world.count; ++i) {
+        double *bead = y + FST_BEAD_NUMBERS * i, *n = bead + BEADS_N;
+        const double norm = sqrt(beads_dot(n, n));
+        bead[2] += isnan(r->world.plate) ? 0.0 : r->world.body[i].radius;
+        for (int k = 0; k < 3; ++k)
+            n[k] /= norm;
+    }
+    const fst_beads_sample sample = {t, t * r->world.omega / FST_TWO_PI, r->world.count, y, count, touches};
+    ++r->sampled;
+    return r->options->sample(r->options->user, &sample, error);
+}
+
+/* Tell the samples of the exact step from the time `from` to `to`, by its dense output. */
+static fst_status tell_exact(run *r, double from, double to, fst_error *error)
+{
+    static const double EARLY = 1e-12; /* over the spacing: a sample at the very end of a step or of the run */
+    const beads_modes *modes = &r->flow.during;
+    const size_t numbers = (size_t)(FST_BEAD_NUMBERS * r->world.count);
+    fst_bead_touch touches[BEADS_CONTACTS];
+    double y[BEADS_DIM];
+    fst_status status = FST_OK;
+    while (status == FST_OK && to > from) {
+        const double next = (double)r->sampled * r->spacing;
+        if (next > to + EARLY * r->spacing)
+            break;
+        beads_look look;
+        if (r->sampled == 0)
+            memcpy(y, r->state, numbers * sizeof *y);
+        else
+            beads_method_evaluate_dense((int)numbers, &r->flow.step.dense[0][0], (BEADS_DIM + 1) / 2 * 2,
+                                        fmin((next - from) / (to - from), 1.0), y);
+        beads_look_at(&r->world, modes, y, &look);
+        const int count = closed_contacts(&r->world, modes, &look, touches);
+        status = tell_sample(r, fmin(next, to), y, count, touches, error);
+    }
+    return status;
+}
+
+/* Of stepping: tell the start, and the state of the first step that ends at a sample's time or behind it. */
+static fst_status tell_stepped(run *r, double to, fst_error *error)
+{
+    const size_t numbers = (size_t)(FST_BEAD_NUMBERS * r->world.count);
+    double *y = malloc(numbers * sizeof *y);
+    fst_bead_touch *touches = malloc(((size_t)r->steps.touch_count + 1) * sizeof *touches);
+    fst_status status =
+        y && touches ? FST_OK : fst_fail(error, FST_NO_MEMORY, "beads", "out of memory for a sample");
+    if (status == FST_OK && r->sampled == 0) {
+        memcpy(y, r->state, numbers * sizeof *y);
+        status = tell_sample(r, 0.0, y, 0, touches, error);
+    }
+    if (status == FST_OK && (double)r->sampled * r->spacing <= to + 0.5 * r->steps.h) {
+        memcpy(y, r->steps.y, numbers * sizeof *y);
+        status = tell_sample(r, to, y, pressing_contacts(&r->steps, touches), touches, error);
+        r->sampled = llround(floor(to / r->spacing + 0.5 * r->steps.h / r->spacing)) + 1;
+    }
+    free(y);
+    free(touches);
+    return status;
+}
+
+static fst_status tell_samples(run *r, double from, double to, fst_error *error)
+{
+    if (!r->options->sample)
+        return FST_OK;
+    return r->method == FST_BEADS_STEPPING ? tell_stepped(r, to, error) : tell_exact(r, from, to, error);
 }
 
 /* ------------------------------------------------------------------ the way */
 
-/* The centre of a group, in the plane, and the rate of its distance from the axis. */
-static void centre_of(const run *r, const fst_bead_group *group, double x[2], double *distance, double *rate)
+/* Whether it has come to the time `limit`; equal steps end as near as they can. */
+static int is_there(const run *r, double limit)
 {
-    double mass = 0.0, v[2] = {0.0, 0.0};
-    x[0] = x[1] = 0.0;
-    for (int i = 0; i < group->count; ++i) {
-        const double *bead = r->flow.step.y + FST_BEAD_NUMBERS * group->members[i];
-        const double m = r->flow.world.body[group->members[i]].mass;
-        mass += m;
-        for (int k = 0; k < 2; ++k) {
-            x[k] += m * bead[k];
-            v[k] += m * bead[BEADS_V + k];
-        }
-    }
-    x[0] /= mass;
-    x[1] /= mass;
-    *distance = hypot(x[0], x[1]);
-    *rate = *distance > 0 ? (x[0] * v[0] + x[1] * v[1]) / (mass * *distance) : 0.0;
+    return r->method == FST_BEADS_STEPPING ? r->steps.steps >= llround(limit / r->steps.h)
+                                           : r->flow.t.high >= limit;
 }
 
-/* One step, with the centres of the groups followed over it, by trapezia with their correction at the ends. */
-static fst_status step(run *r, double limit, fst_error *error)
+static fst_status go(run *r, double limit, fst_error *error)
 {
-    double x[FST_BEADS_MOST][2], distance[FST_BEADS_MOST], rate[FST_BEADS_MOST], end[2], d, d_rate;
-    const double from = r->flow.t.high;
-    for (int g = 0; g < r->group_count; ++g)
-        centre_of(r, &r->groups[g], x[g], &distance[g], &rate[g]);
-    fst_status status = beads_go(&r->flow, limit, error);
-    const double h = r->flow.t.high - from;
-    for (int g = 0; g < r->group_count && status == FST_OK; ++g) {
-        centre_of(r, &r->groups[g], end, &d, &d_rate);
-        r->centre_turned[g] += atan2(x[g][0] * end[1] - x[g][1] * end[0], x[g][0] * end[0] + x[g][1] * end[1]);
-        r->centre_r[g] += 0.5 * h * (distance[g] + d) + h * h / 12.0 * (rate[g] - d_rate);
-    }
-    if (status == FST_OK)
-        status = fst_tell(r->progress, fmin(r->flow.t.high / r->end, 1.0), NULL, error);
-    return status;
+    return r->method == FST_BEADS_STEPPING ? beads_step(&r->steps, error) : beads_go(&r->flow, limit, error);
 }
 
 static fst_status go_on(run *r, double limit, fst_error *error)
 {
     fst_status status = FST_OK;
-    while (status == FST_OK && r->flow.t.high < limit)
-        status = step(r, limit, error);
+    for (beads_seen seen = see(r); status == FST_OK && !is_there(r, limit);) {
+        const double from = seen.time;
+        beads_find_centres(&seen, &r->groups, r->centres);
+        status = go(r, limit, error);
+        seen = see(r);
+        beads_follow(&seen, r->centres, seen.time - from, &r->groups);
+        r->bond_count = beads_keep_bonds(&r->world, seen.gone, seen.y, r->bonds, r->bond_count);
+        if (status == FST_OK)
+            status = tell_samples(r, from, seen.time, error);
+        if (status == FST_OK)
+            status = fst_tell(r->options->progress, fmin(seen.time / r->end, 1.0), NULL, error);
+    }
     return status;
 }
 
 /* Go on to `limit`, and find the groups of the turn before it. */
-static fst_status go_and_group(run *r, double limit, fst_bead_group *groups, int *count, fst_error *error)
+static fst_status go_and_group(run *r, double limit, fst_bead_group *groups, int *members, int *count,
+                               fst_error *error)
 {
-    const double period = FST_TWO_PI / r->flow.world.omega;
-    fst_status status = go_on(r, fmax(limit - period, 0.0), error);
-    for (int k = 0; k < r->flow.world.contacts; ++k)
-        r->flow.widest[k] = r->flow.start.gap[k];
+    fst_status status = go_on(r, fmax(limit - FST_TWO_PI / r->world.omega, 0.0), error);
+    beads_seen seen = see(r);
+    if (status == FST_OK)
+        status = beads_find_bonds(&r->world, seen.gone, seen.y, &r->bonds, &r->bond_count, error);
     if (status == FST_OK)
         status = go_on(r, limit, error);
     if (status == FST_OK)
-        *count = beads_group(&r->flow, groups);
+        *count = beads_group(r->world.count, seen.gone, r->bonds, r->bond_count, groups, members);
+    free(r->bonds);
+    r->bonds = NULL;
+    r->bond_count = 0;
     return status;
 }
 
 /* ------------------------------------------------------------------ what is told */
 
-static fst_regime regime_of(const beads_flow *flow, int i, double mean_alpha_dot)
+/* The contacts, and what happened there. */
+static void tell_contacts(const beads_flow *flow, fst_beads_result *result)
 {
-    const double omega = flow->world.omega, *bead = flow->step.y + FST_BEAD_NUMBERS * i;
-    const double u = bead[BEADS_V] + omega * bead[1], v = bead[BEADS_V + 1] - omega * bead[0];
-    if (flow->modes.gone[i])
-        return FST_REGIME_EJECTED;
-    if (fabs(mean_alpha_dot - omega) < WITH_MAGNET * omega)
-        return hypot(u, v) < AT_REST ? FST_REGIME_LOCKED : FST_REGIME_LIBRATING;
-    return mean_alpha_dot < 0 ? FST_REGIME_COUNTER_ROTATING : FST_REGIME_COROTATING;
-}
-
-static void tell_beads(const run *r, const moment *from, const moment *to, fst_beads_result *result)
-{
-    const beads_flow *flow = &r->flow;
-    const double time = to->time - from->time;
-    for (int i = 0; i < flow->world.count; ++i) {
-        fst_bead_result *bead = &result->beads[i];
-        const double weight = flow->world.body[i].mass * flow->world.gravity;
-        bead->mean_r = (to->integral[BEADS_R + i] - from->integral[BEADS_R + i]) / time;
-        bead->mean_alpha_dot = flow->world.omega + (to->turned[i] - from->turned[i]) / time;
-        bead->mean_load_weights =
-            (to->integral[BEADS_LOAD + i] - from->integral[BEADS_LOAD + i]) / (time * weight);
-        bead->ejected_at = flow->ejected[i];
-        bead->regime = regime_of(flow, i, bead->mean_alpha_dot);
-        if (flow->modes.gone[i])
-            bead->mean_r = bead->mean_alpha_dot = bead->mean_load_weights = NAN;
-        memcpy(bead->final_state, flow->step.y + FST_BEAD_NUMBERS * i, sizeof bead->final_state);
-        bead->final_state[2] += flow->world.body[i].radius;
-    }
-}
-
-static void tell_groups(const run *r, const moment *from, const moment *to, int same, fst_beads_result *result)
-{
-    const double time = to->time - from->time, omega = r->flow.world.omega;
-    for (int g = 0; g < result->group_count; ++g) {
-        fst_bead_group *group = &result->groups[g];
-        const int last = group->members[group->count - 1];
-        const int pair = group->count > 1 ? beads_pair_number(&r->flow.world, group->members[0], last) : -1;
-        group->mean_r = group->centre_rate = group->axis_rate = NAN;
-        if (!same)
-            continue;
-        group->mean_r = (to->centre_r[g] - from->centre_r[g]) / time;
-        if (group->mean_r > AT_AXIS * r->flow.world.body[last].radius)
-            group->centre_rate = omega + (to->centre_turned[g] - from->centre_turned[g]) / time;
-        if (pair >= 0)
-            group->axis_rate = omega + (to->twisted[pair] - from->twisted[pair]) / time;
-    }
-}
-
-static void tell_contacts(const run *r, fst_beads_result *result)
-{
-    const beads_flow *flow = &r->flow;
-    for (int k = 0; k < flow->world.contacts; ++k)
-        if (flow->modes.contact[k] != BEADS_OPEN) {
-            const beads_contact *c = &flow->world.contact[k];
-            const double force = flow->modes.contact[k] == BEADS_PRESSING ? flow->start.held[k] : 0.0;
-            result->touches[result->touch_count++] = (fst_bead_touch){{c->first, c->second}, force};
-        }
+    result->touch_count = closed_contacts(&flow->world, &flow->modes, &flow->start, result->touches);
     result->forces_unique = flow->start.unique;
     result->event_count = flow->event_count;
-    memcpy(result->events, flow->events, sizeof result->events);
+    memcpy(result->events, flow->events, sizeof flow->events);
     memcpy(result->counts, flow->counts, sizeof result->counts);
-}
-
-static int same_groups(const run *r, const fst_beads_result *result)
-{
-    if (r->group_count != result->group_count)
-        return 0;
-    for (int g = 0; g < r->group_count; ++g) {
-        const fst_bead_group *a = &r->groups[g], *b = &result->groups[g];
-        if (a->kind != b->kind || a->count != b->count ||
-            memcmp(a->members, b->members, sizeof a->members) != 0)
-            return 0;
-    }
-    return 1;
-}
-
-static fst_beads_outcome outcome_of_group(const fst_bead_group *group, double omega, fst_beads_result *result)
-{
-    const size_t room = sizeof result->reason;
-    if (group->kind == FST_BEAD_GROUP_SINGLE) {
-        (void)snprintf(result->reason, room, "no bead touches another");
-        return FST_BEADS_APART;
-    }
-    if (group->kind == FST_BEAD_GROUP_RING || group->kind == FST_BEAD_GROUP_CLUSTER) {
-        (void)snprintf(result->reason, room, "%d beads form a %s", group->count,
-                       fst_bead_group_name(group->kind));
-        return group->kind == FST_BEAD_GROUP_RING ? FST_BEADS_RING : FST_BEADS_CLUSTER;
-    }
-    const int used =
-        snprintf(result->reason, room, "the axis of %d beads turns at %.4g of the drive's rate, their centre ",
-                 group->count, group->axis_rate / omega);
-    if (isnan(group->centre_rate))
-        (void)snprintf(result->reason + used, room - (size_t)used, "stays at the axis");
-    else
-        (void)snprintf(result->reason + used, room - (size_t)used, "at %.4g, %.4g l from the axis",
-                       group->centre_rate / omega, group->mean_r);
-    if (!(fabs(group->axis_rate - omega) < WITH_MAGNET * omega))
-        return FST_BEADS_UNDECIDED;
-    if (isnan(group->centre_rate))
-        return FST_BEADS_BAR;
-    return fabs(group->centre_rate - omega) > WITH_MAGNET * omega ? FST_BEADS_WALKER : FST_BEADS_UNDECIDED;
-}
-
-static void decide(const run *r, const moment at[3], int same, fst_beads_result *result)
-{
-    const size_t room = sizeof result->reason;
-    const fst_bead_group *largest = &result->groups[0];
-    for (int i = 0; i < result->count; ++i)
-        if (r->flow.modes.gone[i]) {
-            result->outcome = FST_BEADS_EJECTED;
-            (void)snprintf(result->reason, room, "bead %d passed the plate's edge at t = %.6g", i,
-                           r->flow.ejected[i]);
-            return;
-        }
-    result->outcome = FST_BEADS_UNDECIDED;
-    if (!same) {
-        (void)snprintf(result->reason, room,
-                       "the groups changed after the discard: make run.periods and "
-                       "run.discard larger");
-        return;
-    }
-    for (int i = 0; i < result->count; ++i) {
-        const int q = BEADS_R + i;
-        const double first = (at[1].integral[q] - at[0].integral[q]) / (at[1].time - at[0].time);
-        const double second = (at[2].integral[q] - at[1].integral[q]) / (at[2].time - at[1].time);
-        if (fabs(second - first) > UNSETTLED * fmax(result->beads[i].mean_r, r->flow.world.body[i].radius)) {
-            (void)snprintf(result->reason, room,
-                           "bead %d has not settled: its mean r goes from %.4g to %.4g in the window", i, first,
-                           second);
-            return;
-        }
-    }
-    for (int g = 1; g < result->group_count; ++g)
-        if (result->groups[g].count > largest->count)
-            largest = &result->groups[g];
-    result->outcome = outcome_of_group(largest, r->flow.world.omega, result);
-}
-
-static void conclude(const run *r, const moment at[3], double energy, fst_beads_result *result)
-{
-    const beads_flow *flow = &r->flow;
-    const moment *from = &at[0], *to = &at[2];
-    const double time = to->time - from->time;
-    const int same = same_groups(r, result);
-    result->count = flow->world.count;
-    tell_beads(r, from, to, result);
-    tell_groups(r, from, to, same, result);
-    tell_contacts(r, result);
-    decide(r, at, same, result);
-    result->drive_power = (to->integral[BEADS_DRIVE] - from->integral[BEADS_DRIVE]) / time;
-    result->plate_power = (to->integral[BEADS_PLATE] - from->integral[BEADS_PLATE]) / time;
-    result->pair_power = (to->integral[BEADS_PAIR] - from->integral[BEADS_PAIR]) / time;
-    result->impact_power = (to->impacts - from->impacts) / time;
-    result->restitution = flow->world.restitution;
-    result->energy_residual = beads_residual(flow, energy);
-    result->omega = flow->world.omega;
     result->rhs_calls = flow->looks;
     result->accepted = flow->accepted;
     result->rejected = flow->rejected;
 }
 
-static fst_status simulate(run *r, const fst_params *p, fst_beads_result *result, fst_error *error)
+/* Dry friction left no motion, or several: the groups are those of that moment. */
+static fst_status tell_paradox(run *r, fst_beads_result *result, fst_error *error)
 {
-    const double period = FST_TWO_PI / r->flow.world.omega, energy = beads_energy_now(&r->flow);
-    const double discard = fst_run_discard(p);
-    moment at[3];
-    r->end = p->run_periods * period;
-    fst_status status = go_and_group(r, discard * period, r->groups, &r->group_count, error);
-    at[0] = now(r);
+    const fst_beads_paradox *paradox = &r->flow.paradox;
+    const beads_seen seen = see(r);
+    const fst_status status = beads_find_bonds(&r->world, seen.gone, seen.y, &r->bonds, &r->bond_count, error);
+    if (status != FST_OK)
+        return status;
+    result->paradox = *paradox;
+    result->group_count =
+        beads_group(r->world.count, seen.gone, r->bonds, r->bond_count, result->groups, result->members);
+    result->outcome = FST_BEADS_UNDECIDED;
+    (void)snprintf(result->reason, sizeof result->reason,
+                   "paradox: at t = %.6g %s of %d contacts with dry friction", paradox->time,
+                   paradox->motions ? "there are several motions" : "there is no consistent state",
+                   paradox->touch_count);
+    return FST_OK;
+}
+
+static fst_status tell_steps(const beads_steps *s, fst_beads_result *result, fst_error *error)
+{
+    if (!fst_resize(&result->touches, (size_t)s->touch_count + 1, sizeof *result->touches))
+        return fst_fail(error, FST_NO_MEMORY, "beads", "out of memory for %d contacts", s->touch_count);
+    result->touch_count = pressing_contacts(s, result->touches);
+    result->event_count = s->event_count;
+    memcpy(result->events, s->events, FST_BEADS_EVENTS * sizeof *s->events);
+    memcpy(result->counts, s->counts, sizeof result->counts);
+    result->rhs_calls = result->accepted = (uint64_t)s->steps;
+    result->solver_residual = s->residual;
+    result->solver_sweeps = s->sweeps;
+    result->deepest = s->deepest;
+    return FST_OK;
+}
+
+/* Begin by the method. */
+static fst_status begin(run *r, const fst_params *p, double steps_per_turn, fst_error *error)
+{
+    if (r->method == FST_BEADS_EXACT)
+        return beads_begin(&r->flow, &r->world, r->state, p->run_rtol, error);
+    if (!(steps_per_turn >= LEAST_STEPS && steps_per_turn <= MOST_STEPS))
+        return fst_fail(
+            error, FST_BAD_INPUT, "run.step",
+            "time stepping makes %g steps in a turn of the drive; it needs %g to %g (2000 is usual)",
+            steps_per_turn, LEAST_STEPS, MOST_STEPS);
+    return beads_steps_begin(&r->steps, &r->world, r->state, FST_TWO_PI / (r->world.omega * steps_per_turn),
+                             error);
+}
+
+/* `status`: of the beginning, which dry friction may have left without a motion. */
+static fst_status simulate(run *r, const fst_params *p, fst_status status, fst_beads_result *result,
+                           fst_error *error)
+{
+    const double period = FST_TWO_PI / r->world.omega, discard = fst_run_discard(p);
+    const double energy = beads_energy(&r->world, see(r).gone, see(r).y);
+    beads_seen seen;
+    r->end = fst_run_periods(p) * period;
+    r->spacing = isnan(r->options->sample_spacing) ? period / p->run_samples : r->options->sample_spacing;
+    r->flow.dense = r->options->sample != NULL;
+    r->flow.during = r->flow.modes;
     if (status == FST_OK)
-        status = go_on(r, 0.5 * (discard + p->run_periods) * period, error);
-    at[1] = now(r);
+        status = go_and_group(r, discard * period, r->groups.group, r->groups.members, &r->groups.count, error);
+    seen = see(r);
+    beads_keep(&seen, &r->groups, &r->at[0]);
     if (status == FST_OK)
-        status = go_and_group(r, r->end, result->groups, &result->group_count, error);
-    at[2] = now(r);
+        status = go_on(r, 0.5 * (discard + fst_run_periods(p)) * period, error);
+    seen = see(r);
+    beads_keep(&seen, &r->groups, &r->at[1]);
     if (status == FST_OK)
-        conclude(r, at, energy, result);
-    result->periods = p->run_periods;
+        status = go_and_group(r, r->end, result->groups, result->members, &result->group_count, error);
+    seen = see(r);
+    beads_keep(&seen, &r->groups, &r->at[2]);
+    const int is_paradox =
+        r->method == FST_BEADS_EXACT && status == FST_NO_CONVERGENCE && !isnan(r->flow.paradox.time);
+    if (status != FST_OK && !is_paradox)
+        return status;
+    beads_conclude(&seen, &r->groups, r->at, result);
+    result->periods = fst_run_periods(p);
+    if (r->method == FST_BEADS_STEPPING) {
+        result->energy_residual = beads_steps_residual(&r->steps, energy);
+        return tell_steps(&r->steps, result, error);
+    }
+    result->energy_residual = beads_residual(&r->flow, energy);
+    result->energy_scale = beads_work(&r->flow, energy);
+    tell_contacts(&r->flow, result);
+    return is_paradox ? tell_paradox(r, result, error) : FST_OK;
+}
+
+/* ------------------------------------------------------------------ the call */
+
+void fst_beads_free(fst_beads_result *result)
+{
+    free(result->beads);
+    free(result->groups);
+    free(result->members);
+    free(result->touches);
+    free(result->events);
+    memset(result, 0, sizeof *result);
+}
+
+static fst_status make_room(run *r, int count, fst_beads_result *result, fst_error *error)
+{
+    const size_t n = (size_t)count;
+    result->count = count;
+    result->beads = calloc(n, sizeof *result->beads);
+    result->groups = calloc(n, sizeof *result->groups);
+    result->members = calloc(n, sizeof *result->members);
+    result->touches = calloc(BEADS_CONTACTS, sizeof *result->touches);
+    result->events = calloc(FST_BEADS_EVENTS, sizeof *result->events);
+    r->state = calloc(n * FST_BEAD_NUMBERS, sizeof *r->state);
+    r->centres = calloc(n * BEADS_CENTRE, sizeof *r->centres);
+    if (!result->beads || !result->groups || !result->members || !result->touches || !result->events ||
+        !r->state || !r->centres)
+        return fst_fail(error, FST_NO_MEMORY, "beads", "out of memory for %d beads", count);
+    return beads_make_room(count, &r->groups, r->at, error);
+}
+
+static fst_status make_run(run *r, const fst_params *beads, int count, const fst_beads_options *options,
+                           fst_beads_result *result, fst_error *error)
+{
+    fst_status status = make_room(r, count, result, error);
+    r->options = options;
+    r->method = result->method = options->method;
+    result->steps_per_turn = r->method == FST_BEADS_STEPPING ? options->steps_per_turn : NAN;
+    if (status == FST_OK)
+        status = beads_set_up(beads, count, options, &r->model, &r->world, r->state, error);
+    if (status != FST_OK)
+        return status;
+    status = begin(r, &beads[0], options->steps_per_turn, error);
+    if (status == FST_OK || (r->method == FST_BEADS_EXACT && status == FST_NO_CONVERGENCE))
+        status = simulate(r, &beads[0], status, result, error);
     return status;
 }
 
 fst_status fst_beads_run(const fst_params *beads, int count, const fst_beads_options *options,
                          fst_beads_result *result, fst_error *error)
 {
-    beads_world world;
-    double state[BEADS_NUMBERS];
+    const int most = options->method == FST_BEADS_STEPPING ? FST_BEADS_MANY : FST_BEADS_MOST;
     memset(result, 0, sizeof *result);
+    result->paradox.time = NAN;
     if (options->cookie != FST_BEADS_OPTIONS_COOKIE)
         return fst_fail(error, FST_BAD_INPUT, "fst_beads_run",
                         "the options were never initialised: get them from fst_default_beads_options()");
+    if (count < 1 || count > most)
+        return fst_fail(error, FST_BAD_INPUT, "beads", "%d beads: the method %s takes 1 to %d", count,
+                        fst_beads_method_name(options->method), most);
     run *r = calloc(1, sizeof *r);
     if (!r)
         return fst_fail(error, FST_NO_MEMORY, "fst_beads_run", "out of memory");
-    r->progress = options->progress;
-    fst_status status = beads_set_up(beads, count, options, &r->model, &world, state, error);
-    if (status == FST_OK)
-        status = beads_begin(&r->flow, &world, state, beads[0].run_rtol, error);
-    if (status == FST_OK)
-        status = simulate(r, &beads[0], result, error);
+    const fst_status status = make_run(r, beads, count, options, result, error);
+    if (status != FST_OK)
+        fst_beads_free(result);
+    beads_free_room(&r->groups, r->at);
+    beads_steps_free(&r->steps);
     fst_model_free(r->model);
+    free(r->state);
+    free(r->centres);
+    free(r->bonds);
     free(r);
     return status;
 }

@@ -13,4 +13,15 @@ int beads_select(const beads_world *world, const double *y, const int *touching,
 int beads_release(const beads_world *world, const double *y, const int *touching, int k, int rises,
                   beads_modes *modes);
 
+/* Close the contacts that touch and are open: each presses, or sticks if its dry friction may hold it. */
+void beads_close(const beads_world *world, const double *y, const int *touching, beads_modes *modes);
+
+/* Whether no contact is in the wrong. */
+int beads_is_consistent(const beads_world *world, const double *y, const int *touching,
+                        const beads_modes *modes);
+
+/* Whether another consistent choice has other accelerations; asked of a few contacts only. */
+int beads_is_one_of_several(const beads_world *world, const double *y, const int *touching,
+                            const beads_modes *modes);
+
 #endif

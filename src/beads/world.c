@@ -3,33 +3,73 @@
 
 #include <math.h>
 
-static void add_contact(beads_world *world, int first, int second, double friction)
+static void add_contact(beads_world *world, int first, int second)
 {
-    const double inverse = 1.0 / world->body[first].mass;
+    const double inverse = 1.0 / beads_moved_mass(&world->body[first]);
     world->contact[world->contacts++] =
         (beads_contact){first,
                         second,
                         second < 0 ? 0.0 : world->body[first].radius + world->body[second].radius,
-                        friction,
-                        {inverse, second < 0 ? 0.0 : 1.0 / world->body[second].mass}};
+                        beads_friction(world, first, second),
+                        second < 0 ? world->plate_mu : world->pair_mu,
+                        {inverse, second < 0 ? 0.0 : 1.0 / beads_moved_mass(&world->body[second])}};
 }
 
 void beads_number_contacts(beads_world *world, double plate_rate, double pair_rate)
 {
+    world->plate_rate = plate_rate;
+    world->pair_rate = pair_rate;
     world->contacts = 0;
+    if (world->count > FST_BEADS_MOST)
+        return;
     for (int i = 0; i < world->count; ++i)
-        add_contact(world, i, -1, plate_rate * world->body[i].mass);
+        add_contact(world, i, -1);
     for (int i = 0; i < world->count; ++i)
-        for (int j = i + 1; j < world->count; ++j) {
-            const double m = world->body[i].mass, n = world->body[j].mass;
-            add_contact(world, i, j, pair_rate * (2.0 * m * n / (m + n)));
-        }
+        for (int j = i + 1; j < world->count; ++j)
+            add_contact(world, i, j);
 }
 
 void beads_model_field(const void *model, double x, double y, double z, double b[3], fst_gradient_double *g)
 {
     const fst_world_double *c = &((const fst_model *)model)->world;
     fst_source_field_double(&c->source, &c->kinds, x, y, z, b, g);
+}
+
+double beads_model_clearance(const void *model, double x, double y, double z)
+{
+    const fst_params *p = &((const fst_model *)model)->params;
+    const double l = p->magnet_half_length, place[3] = {x * l, y * l, z * l};
+    if (p->magnet_shape != FST_MAGNET_PARTS)
+        return z;
+    double least = INFINITY;
+    for (int i = 0; i < p->magnet_part_count; ++i)
+        if (p->magnet_parts[i].motion == FST_PART_TURNING)
+            least = fmin(least, fst_part_distance(&p->magnet_parts[i], place));
+    return least / l;
+}
+
+double beads_plate_gap(const beads_world *world, int i, const double *y)
+{
+    const double *x = y + FST_BEAD_NUMBERS * i, rho = world->bowl - world->body[i].radius;
+    if (isnan(world->plate))
+        return INFINITY;
+    if (!(world->bowl > 0))
+        return x[2];
+    return rho - sqrt(x[0] * x[0] + x[1] * x[1] + (x[2] - rho) * (x[2] - rho));
+}
+
+double beads_way_out(const beads_world *world, int i, const double *y, int *at_magnet)
+{
+    const double *bead = y + FST_BEAD_NUMBERS * i, z = isnan(world->plate) ? bead[2] : 0.0;
+    const double edge = world->plate_radius - sqrt(bead[0] * bead[0] + bead[1] * bead[1] + z * z);
+    double magnet = INFINITY, place[3] = {bead[0], bead[1], beads_height(world, i, y)};
+    if (world->clearance && world->surrounded)
+        fst_place_on_magnet(&world->around, beads_time(world, y),
+                            (const double[3]){place[0], place[1], place[2]}, place);
+    if (world->clearance)
+        magnet = world->clearance(world->source, place[0], place[1], place[2]) - world->body[i].radius;
+    *at_magnet = magnet < edge;
+    return *at_magnet ? magnet : edge;
 }
 
 double beads_kinetic_energy(const beads_world *world, const int *gone, const double *y)
@@ -39,7 +79,7 @@ double beads_kinetic_energy(const beads_world *world, const int *gone, const dou
         const double *bead = y + FST_BEAD_NUMBERS * i;
         const beads_body *body = &world->body[i];
         if (!gone[i])
-            sum += 0.5 * (body->mass * beads_dot(bead + BEADS_V, bead + BEADS_V) +
+            sum += 0.5 * (beads_moved_mass(body) * beads_dot(bead + BEADS_V, bead + BEADS_V) +
                           body->inertia * beads_dot(bead + BEADS_W, bead + BEADS_W));
     }
     return sum;
@@ -50,20 +90,24 @@ static double energy_in_field(const beads_world *world, int i, const double *y)
     const double *bead = y + FST_BEAD_NUMBERS * i;
     fst_gradient_double unused;
     double b[3] = {0.0, 0.0, 0.0};
-    if (world->field)
+    if (world->surrounded) {
+        const double x[3] = {bead[0], bead[1], beads_height(world, i, y)};
+        double change[3];
+        fst_surroundings_field(&world->around, beads_time(world, y), x, b, &unused, change);
+    } else if (world->field)
         world->field(world->source, bead[0], bead[1], beads_height(world, i, y), b, &unused);
-    return world->body[i].mass * world->gravity * bead[2] -
+    const double *aside = world->sideways, along = aside[0] * bead[0] + aside[1] * bead[1];
+    return (world->body[i].mass - world->body[i].displaced) * (world->gravity * bead[2] - along) -
            world->body[i].strength * beads_dot(bead + BEADS_N, b);
 }
 
 static double energy_of_pair(const beads_world *world, int i, int j, const double *y)
 {
-    const double *a = y + FST_BEAD_NUMBERS * i, *b = y + FST_BEAD_NUMBERS * j;
-    const double lift = isnan(world->plate) ? 0.0 : world->body[j].radius - world->body[i].radius;
-    const double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2] + lift}, d2 = beads_dot(d, d);
-    const double along = beads_dot(a + BEADS_N, d) * beads_dot(b + BEADS_N, d) / d2;
-    return world->body[i].dipole * world->body[j].dipole * (beads_dot(a + BEADS_N, b + BEADS_N) - 3.0 * along) /
-           (d2 * sqrt(d2));
+    const double *n = y + FST_BEAD_NUMBERS * i + BEADS_N, *m = y + FST_BEAD_NUMBERS * j + BEADS_N;
+    double d[3];
+    beads_way(world, y, i, j, d);
+    const double d2 = beads_dot(d, d), along = beads_dot(n, d) * beads_dot(m, d) / d2;
+    return world->body[i].dipole * world->body[j].dipole * (beads_dot(n, m) - 3.0 * along) / (d2 * sqrt(d2));
 }
 
 double beads_energy(const beads_world *world, const int *gone, const double *y)

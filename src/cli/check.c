@@ -1,6 +1,8 @@
 /* check.c - festoon check: reading a scene, and telling what it means without running it. */
 #include <stdlib.h>
 
+#include <festoon/beads.h>
+
 #include "cli/command.h"
 #include "cli/groups.h"
 
@@ -34,6 +36,31 @@ static void print_map(FILE *out, const fst_field_map *map)
                                    : "");
 }
 
+/* The same of a scene that lists beads: whether they can begin a run, as one of no length finds out. */
+static fst_status check_beads(const arguments *given, const fst_params *scene, FILE *out, fst_error *error)
+{
+    fst_beads_result result = {.count = 0};
+    fst_world_result alone;
+    fst_params shortest = *scene;
+    char name[SHOWN_SIZE];
+    const fst_beads_options usual = fst_default_beads_options();
+    shortest.run_periods = 1e-3;
+    shortest.run_discard = 0.0;
+    shortest.run_duration = NAN;
+    fst_status status = scene->bead_count ? fst_beads_run_scene(&shortest, &usual, &result, error)
+                                          : fst_world_run(&shortest, &usual, &alone, error);
+    if (status != FST_OK)
+        return status;
+    fst_beads_free(&result);
+    if (option_value(given, "json"))
+        return print_and_free(fst_scene_json(scene), out, error);
+    char *text = fst_scene_text(scene, 0);
+    (void)fprintf(out, "%s is a good scene; beads: %d.\n\nIn SI:\n",
+                  operand(given) ? shown(operand(given), name) : "This",
+                  scene->bead_count ? scene->bead_count : 1);
+    return print_and_free(text, out, error);
+}
+
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     fst_params params;
@@ -41,7 +68,11 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     double state[FST_STATE_SIZE];
     fst_status status = read_scene(given, operand(given), &params, error);
     if (status == FST_OK)
-        status = fst_model_new(&params, &model, error);
+        status = fst_field_model_new(&params, NAN, &model, error);
+    if (status == FST_OK && (params.bead_count || fst_key_of_world(&params))) {
+        fst_model_free(model);
+        return check_beads(given, &params, out, error);
+    }
     if (status == FST_OK)
         status = fst_start_state(&params, model, state, error);
     if (status == FST_OK)

@@ -13,6 +13,8 @@ static const option options[] = {
      "at this height over the magnet's mid-plane (real magnets: reference plane), not the bead's centre's: "
      "18.7mm, "
      "or in l"},
+    {"time", '\0', "T",
+     "the field at a point after this time (s), of all that makes one, on the laboratory's axes"},
     {"output", 'o', "FIG", "draw the map of the field to FIG.svg, .pdf or .png"},
     {"csv", '\0', "FILE", "write the map of the field to FILE.csv, which magnet.shape: grid reads back"},
     {"radius", '\0', "R", "how far from the axis the map of --csv goes along X and Y: 60 mm unless given"},
@@ -157,6 +159,30 @@ static fst_status check_outside(const fst_params *params, const double at[2], do
         1e3 * place[0], 1e3 * place[1], 1e3 * place[2], part, kind);
 }
 
+/* The field of everything that makes one, at a time. */
+static fst_status print_at_time(const arguments *given, const fst_params *params, const double place[3],
+                                FILE *out, fst_error *error)
+{
+    static const char *const axes[] = {"x", "y", "z"};
+    double seconds = 0.0, b[3], grad[3][3];
+    const char *text = option_value(given, "time");
+    fst_status status = text ? fst_parse_value(text, FST_UNIT_TIME, &seconds, error) : FST_OK;
+    if (status != FST_OK || !(fabs(seconds) < 1e9))
+        return fail(error, FST_BAD_INPUT, "--time", "\"%.40s\" must be a time, as in 0.2 or 20ms", text);
+    const double time = seconds * params->friction_gamma;
+    status = fst_field_at(params, time, place, b, grad, error);
+    if (status != FST_OK)
+        return status;
+    if (option_value(given, "json"))
+        return print_and_free(fst_field_at_json(params, time, place, b, grad), out, error);
+    (void)fprintf(out, "after %g s, on the laboratory's axes, at %.9g %.9g %.9g l; fields in B0:\n", seconds,
+                  place[0], place[1], place[2]);
+    for (int i = 0; i < 3; ++i)
+        (void)fprintf(out, "B%s = %.9g, its gradient %.9g %.9g %.9g\n", axes[i], b[i], grad[i][0], grad[i][1],
+                      grad[i][2]);
+    return FST_OK;
+}
+
 static fst_status print_point(const arguments *given, const fst_params *params, double h, fst_shown_units units,
                               FILE *out, fst_error *error)
 {
@@ -168,6 +194,11 @@ static fst_status print_point(const arguments *given, const fst_params *params, 
         status = read_place(option_value(given, "at"), fst_model_groups(model).length_unit, at, error);
     if (status == FST_OK && !(fabs(at[0]) < farthest && fabs(at[1]) < farthest))
         status = fail(error, FST_BAD_INPUT, "", "--at %g,%g is out of range: up to %g", at[0], at[1], farthest);
+    if (status == FST_OK && (option_value(given, "time") || fst_key_of_world(params))) {
+        const double place[3] = {at[0], at[1], fst_model_groups(model).h};
+        fst_model_free(model);
+        return print_at_time(given, params, place, out, error);
+    }
     if (status == FST_OK)
         status = check_outside(params, at, fst_model_groups(model).h, error);
     if (status == FST_OK && !is_known(model, at))
@@ -226,6 +257,9 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (!at && !figure && !csv)
         return fail(error, FST_BAD_INPUT, "",
                     "say where with --at X,Y, draw a map with -o FIG.svg, or write one with --csv FILE.csv");
+    if (option_value(given, "time") && !at)
+        return fail(error, FST_BAD_INPUT, "--time",
+                    "it is the time of a field at a point: give one with --at X,Y");
     if (option_value(given, "json") && !at)
         return fail(error, FST_BAD_INPUT, "", "--json prints the field at a point: give one with --at X,Y");
     if ((option_value(given, "radius") || option_value(given, "spacing")) && !csv)

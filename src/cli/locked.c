@@ -1,4 +1,5 @@
 /* locked.c - festoon locked: every state in which the bead goes round with the magnet. */
+#include "cli/beads_orbits.h"
 #include "cli/command.h"
 #include "cli/terminal.h"
 
@@ -72,12 +73,46 @@ static void print_families(FILE *out, const fst_locked_list *list)
     }
 }
 
+/* Where a bead floats without a plate. */
+static fst_status find_levitation(const arguments *given, const fst_params *params, FILE *out, fst_error *error)
+{
+    fst_levitation_list list;
+    const fst_status status = fst_levitation_find(params, NULL, &list, error);
+    if (status != FST_OK)
+        return status;
+    if (option_value(given, "json")) {
+        char *text = fst_levitation_json(params, &list);
+        fst_levitation_free(&list);
+        return print_and_free(text, out, error);
+    }
+    (void)fprintf(out, "%zu places where the bead floats, at rest in the turning frame\n\n", list.count);
+    if (list.count)
+        (void)fprintf(out, "%12s %12s %12s %12s %16s\n", "height (mm)", "gap (mm)", "tilt (deg)", "circle (mm)",
+                      "max Re (1/s)");
+    for (size_t i = 0; i < list.count; ++i) {
+        const fst_levitation *l = &list.states[i];
+        (void)fprintf(out, "%12.5f %12.5f %12.5f %12.5f %16.6g  %s, %s the magnet\n", l->height_mm, l->gap_mm,
+                      l->tilt_deg, l->circle_mm, unsigned_zero(l->eigenvalue_re[0], ALL_DIGITS),
+                      l->stable ? "stable" : "unstable", l->state[2] > 0 ? "above" : "below");
+    }
+    if (list.count && list.states[0].family)
+        (void)fprintf(
+            out, "\nNothing slows the bead's turning: its spin about its moment is conserved, and these places "
+                 "are those\nwithout spin, each one of a family.\n");
+    fst_levitation_free(&list);
+    return FST_OK;
+}
+
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     fst_params params;
     fst_locked_list list;
     fst_model *model = NULL;
     fst_status status = read_scene(given, operand(given), &params, error);
+    if (status == FST_OK && params.plate_shape == FST_PLATE_NONE)
+        return find_levitation(given, &params, out, error);
+    if (status == FST_OK && params.bead_count)
+        return locked_beads(given, &params, out, error);
     if (status == FST_OK)
         status = fst_model_new(&params, &model, error);
     if (status == FST_OK) {

@@ -25,7 +25,8 @@ typedef struct arguments {
     int option_count;
     const char *operands[OPERAND_LIMIT];
     int operand_count;
-    fst_field_map **map; /* the map of the scene, which is freed after the command */
+    fst_bead_params **beads; /* of a scene that lists many, which are freed after the command */
+    fst_field_map **map;     /* the map of the scene, which is freed after the command */
 } arguments;
 
 /* Read words[0..count) by `table`.  A value may begin with a minus.  Only --set, --over and --given may be

@@ -1,5 +1,6 @@
 /* orbit.c - festoon orbit: the periodic orbit to which a start leads, or the one with a given number of
  * festoons. */
+#include "cli/beads_orbits.h"
 #include "cli/command.h"
 #include "cli/terminal.h"
 
@@ -76,14 +77,52 @@ static fst_status with_festoons(const arguments *given, const fst_params *params
     return status;
 }
 
+/* The motion of a world that repeats itself with the drive. */
+static fst_status of_world(const arguments *given, const fst_params *params, FILE *out, fst_error *error)
+{
+    fst_world_orbit orbit;
+    progress_line line;
+    const fst_progress progress = {&line, progress_tell};
+    fst_beads_options run = fst_default_beads_options();
+    if (option_value(given, "festoons"))
+        return fail(error, FST_BAD_INPUT, "--festoons",
+                    "festoons are counted against a magnet that turns steadily and alone under a flat plate, "
+                    "not with %s",
+                    fst_key_of_world(params));
+    run.progress = &progress;
+    progress_begin(&line);
+    const fst_status status = fst_world_orbit_find(params, &run, &orbit, error);
+    progress_end(&line);
+    if (status != FST_OK)
+        return status;
+    if (option_value(given, "json"))
+        return print_and_free(fst_world_orbit_json(params, &orbit), out, error);
+    (void)fprintf(out, "a motion with the period of the drive, %s\n  period                    %.12g 1/gamma\n",
+                  orbit.stable ? "stable" : "unstable", orbit.period);
+    (void)fprintf(out, "  state in the frame of the %s:\n   ",
+                  orbit.frame == FST_FRAME_LABORATORY ? "laboratory" : "turning magnet");
+    for (int i = 0; i < FST_BEAD_NUMBERS; ++i)
+        (void)fprintf(out, " %.10g", unsigned_zero(orbit.state[i], ALL_DIGITS));
+    (void)fprintf(out, "\n  multipliers:");
+    for (int i = 0; i < orbit.count; ++i)
+        (void)fprintf(out, " %.4g%s%.4gi", unsigned_zero(orbit.multipliers[i][0], ALL_DIGITS),
+                      orbit.multipliers[i][1] < 0 ? "-" : "+", fabs(orbit.multipliers[i][1]));
+    (void)fprintf(out, "\n  residual %.2g\n", orbit.residual);
+    return FST_OK;
+}
+
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     fst_params params;
     fst_orbit orbit;
     fst_status status = read_scene(given, operand(given), &params, error);
+    if (status == FST_OK && params.bead_count)
+        return orbit_of_beads(given, &params, out, error);
     if (status != FST_OK)
         return status;
     warn_of_material(&params);
+    if (fst_key_of_world(&params))
+        return of_world(given, &params, out, error);
     if (option_value(given, "festoons"))
         return with_festoons(given, &params, out, error);
     progress_line line;

@@ -49,6 +49,24 @@ static fst_status read_colour(const char *word, const char **colour, fst_error *
                 fst_suggest_name(word, names, suggestion));
 }
 
+/* Refuse the options that say nothing of such a file: `words` has those that do, a|b|c. */
+static fst_status refuse_others(const arguments *given, const char *words, const char *what, fst_error *error)
+{
+    for (int i = 0; i < given->option_count; ++i) {
+        const char *name = given->options[i].row->name;
+        char wanted[32], all[160];
+        (void)snprintf(wanted, sizeof wanted, "|%s|", name);
+        (void)snprintf(all, sizeof all, "|output|%s|", words);
+        if (strstr(all, wanted))
+            continue;
+        size_t used = 0;
+        for (const char *c = words; *c && used + 5 < sizeof all; ++c)
+            used += (size_t)snprintf(all + used, sizeof all - used, *c == '|' ? ", --" : "%c", *c);
+        return fail(error, FST_BAD_INPUT, "", "--%s does not belong to %s; what does: --%s", name, what, all);
+    }
+    return FST_OK;
+}
+
 static fst_status read_figure(const arguments *given, fst_figure_options *figure, fst_error *error)
 {
     *figure = fst_default_figure_options();
@@ -65,6 +83,8 @@ static fst_status read_figure(const arguments *given, fst_figure_options *figure
     int place = (int)figure->kind;
     fst_status status = read_choice("--kind", kind, "kind", FST_WORDS(FST_FIGURES), &place, error);
     figure->kind = (fst_figure_kind)place;
+    if (status == FST_OK && figure->kind != FST_FIGURE_PATH)
+        status = refuse_others(given, "kind|key|units|colour|from|to", "this kind of figure", error);
     if (status == FST_OK && colour)
         status = read_colour(colour, &figure->colour, error);
     if (status == FST_OK)
@@ -101,7 +121,9 @@ static fst_status plot_branch(const arguments *given, const char *path, const ch
     double *dots = NULL;
     size_t dot_count = 0;
     fst_shown_units units;
-    fst_status status = read_units(given, &units, error);
+    fst_status status = refuse_others(given, "observable|runs|units|points", "a branch", error);
+    if (status == FST_OK)
+        status = read_units(given, &units, error);
     if (status == FST_OK)
         status = fst_branch_read(path, &branch, error);
     if (status != FST_OK)
@@ -126,12 +148,9 @@ static fst_status plot_sweep(const arguments *given, const char *path, const cha
     char words[KEYS_SIZE];
     int count = 0;
     fst_shown_units units;
-    for (int i = 0; i < given->option_count; ++i) {
-        const char *name = given->options[i].row->name;
-        if (strcmp(name, "key") != 0 && strcmp(name, "units") != 0 && strcmp(name, "output") != 0)
-            return fail(error, FST_BAD_INPUT, "", "--%s belongs to trajectories; this is a sweep", name);
-    }
-    fst_status status = read_units(given, &units, error);
+    fst_status status = refuse_others(given, "key|units|points", "a sweep", error);
+    if (status == FST_OK)
+        status = read_units(given, &units, error);
     if (status == FST_OK && text)
         status = read_keys(text, words, keys, &count, error);
     if (status == FST_OK)
@@ -145,11 +164,8 @@ static fst_status plot_points(const arguments *given, const char *path, const ch
 {
     fst_points_fit fit;
     char remark[96];
-    for (int i = 0; i < given->option_count; ++i) {
-        const char *name = given->options[i].row->name;
-        if (strcmp(name, "points") != 0 && strcmp(name, "output") != 0)
-            return fail(error, FST_BAD_INPUT, "", "--%s does not go with --points", name);
-    }
+    if (refuse_others(given, "points", "a figure with measured points", error) != FST_OK)
+        return FST_BAD_INPUT;
     if (!ends_in(path, ".json") && !fst_is_sweep(path) && !ends_in(path, ".db"))
         return fail(error, FST_BAD_INPUT, path,
                     "--points belongs to sweeps and branches; this file is neither");
@@ -179,14 +195,18 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (fst_is_sweep(path) || ends_in(path, ".db"))
         return plot_sweep(given, path, to, error);
     char words[KEYS_SIZE];
-    fst_status status = read_figure(given, &figure, error);
+    fst_status status = refuse_others(given, "kind|key|units|colour|arrows|no-arrows|inset|from|to|zoom",
+                                      "a trajectory", error);
+    if (status == FST_OK)
+        status = read_figure(given, &figure, error);
     if (status == FST_OK)
         status = read_columns(given, &figure, words, error);
     if (status == FST_OK)
         status = fst_trajectory_read(path, &table, error);
     if (status != FST_OK)
         return status;
-    if (!option_value(given, "kind") && !figure.colour && !figure.inset && isnan(figure.zoom[0]))
+    if (!option_value(given, "kind") && !option_value(given, "arrows") && !figure.colour && !figure.inset &&
+        isnan(figure.zoom[0]))
         figure.kind = fst_figure_kind_of(&table);
     status = fst_figure_trajectory(&table, to, &figure, error);
     if (status == FST_OK)

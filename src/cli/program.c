@@ -52,6 +52,7 @@ fst_status perform_command(const command *wanted, int count, char **words, FILE 
     }
     arguments given;
     fst_field_map *map = NULL;
+    fst_bead_params *beads = NULL;
     fst_status status =
         read_arguments(wanted->options, wanted->most_operands, count - 1, words + 1, &given, error);
     if (status == FST_OK && wanted->program)
@@ -59,8 +60,10 @@ fst_status perform_command(const command *wanted, int count, char **words, FILE 
     if (status != FST_OK)
         return status;
     given.map = &map;
+    given.beads = &beads;
     status = wanted->perform(&given, out, error);
     fst_field_map_free(map);
+    free(beads);
     if (status == FST_BAD_INPUT)
         tell_file_kind(wanted, &given, error);
     /* The signal reached a helper program such as gnuplot first. */

@@ -4,7 +4,10 @@
 
 #include "cli/command.h"
 #include "cli/groups.h"
+#include "cli/run_beads.h"
+#include "cli/run_files.h"
 #include "cli/run_report.h"
+#include "cli/run_world.h"
 #include "cli/terminal.h"
 
 static const option options[] = {
@@ -129,49 +132,14 @@ static fst_status read_ramp(const arguments *given, double gamma, fst_run_option
 
 /* ---------------------------------------------------------------- files */
 
-static int is_csv(const char *path)
-{
-    const size_t length = path ? strlen(path) : 0;
-    return length > 4 && strcmp(path + length - 4, ".csv") == 0;
-}
-
-/* --fps: the time from sample to sample. */
-static fst_status read_fps(const arguments *given, double gamma, fst_run_options *run, fst_error *error)
-{
-    const char *text = option_value(given, "fps");
-    double fps;
-    if (!text)
-        return FST_OK;
-    if (!option_value(given, "output") && !option_value(given, "csv"))
-        return fail(error, FST_BAD_INPUT, "--fps", "it concerns a trajectory: give -o FILE or --csv FILE");
-    fst_status status = read_numbers("--fps", text, &fps, 1, error);
-    if (status == FST_OK && !(fps >= 0.01 && fps <= 1e7))
-        status = fail(error, FST_BAD_INPUT, "--fps", "\"%.40s\" must be a number from 0.01 to 1e7", text);
-    if (status == FST_OK)
-        run->sample_spacing = gamma / fps;
-    return status;
-}
-
 static fst_status open_files(const arguments *given, const fst_params *params, run_outputs *outputs,
                              fst_error *error)
 {
-    const char *csv = option_value(given, "csv");
-    fst_shown_units units;
-    fst_status status = read_units(given, &units, error);
-    if (status != FST_OK)
-        return status;
-    outputs->paths[0] = option_value(given, "output");
-    outputs->paths[1] = csv;
-    if (csv && !is_csv(csv))
-        return fail(error, FST_BAD_INPUT, "--csv", "the name \"%.200s\" must end in .csv", csv);
-    if (csv && outputs->paths[0] && strcmp(csv, outputs->paths[0]) == 0)
-        return fail(error, FST_BAD_INPUT, "--csv", "-o and --csv name the same file");
+    fst_shown_units units[2];
+    fst_status status = read_paths(given, outputs->paths, units, error);
     for (int i = 0; i < 2 && status == FST_OK; ++i)
         if (outputs->paths[i])
-            status = fst_trajectory_create_in(outputs->paths[i], params,
-                                              i == 1 || (!csv && is_csv(outputs->paths[i])) ? units
-                                                                                            : FST_SHOWN_SCALED,
-                                              &outputs->files[i], error);
+            status = fst_trajectory_create_in(outputs->paths[i], params, units[i], &outputs->files[i], error);
     return status;
 }
 
@@ -207,7 +175,7 @@ static fst_status print_result(const arguments *given, const fst_params *params,
                               error);
     fst_model *model = NULL;
     if (status == FST_OK)
-        status = fst_model_new(params, &model, error);
+        status = fst_field_model_new(params, NAN, &model, error);
     if (status != FST_OK)
         return status;
     const fst_groups groups = fst_model_groups(model);
@@ -232,7 +200,7 @@ static fst_status run_into(const arguments *given, const fst_params *params, run
     if (status == FST_OK)
         status = read_of_ramp(given, "ramp-disturbance", 1e-2, &run.ramp_disturbance, error);
     if (status == FST_OK)
-        status = read_fps(given, params->friction_gamma, &run, error);
+        status = read_fps(given, params->friction_gamma, &run.sample_spacing, error);
     if (status == FST_OK)
         status = open_files(given, params, outputs, error);
     if (status == FST_OK) {
@@ -254,8 +222,12 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     fst_params params;
     run_outputs outputs = {.ramp = NULL};
     fst_status status = read_scene(given, operand(given), &params, error);
+    if (status == FST_OK && params.bead_count)
+        return run_beads(given, &params, out, error);
     if (status == FST_OK)
         warn_of_material(&params);
+    if (status == FST_OK && fst_key_of_world(&params))
+        return run_world(given, &params, out, error);
     if (status == FST_OK)
         status = run_into(given, &params, &outputs, out, error);
     free(outputs.ramp);
@@ -270,7 +242,9 @@ const command run_command = {
     .summary = "Simulate the bead and describe its motion",
     .details =
         "The means are over whole returns of the motion after run.discard drive periods.  A trajectory has\n"
-        "run.samples rows in each drive period; festoon plot draws it.\n",
+        "run.samples rows in each drive period; festoon plot draws it.  A scene may list several beads "
+        "(beads:),\n"
+        "each with what it says of bead and start.\n",
     .options = options,
     .most_operands = 1,
     .perform = perform,

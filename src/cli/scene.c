@@ -25,7 +25,7 @@ static fst_status apply_set(const char *text, fst_params *params, fst_error *err
 }
 
 /* Read the scene that another program writes: festoon init - | festoon run -. */
-static fst_status read_scene_from_input(fst_params *params, fst_error *error)
+static fst_status read_scene_from_input(fst_params *params, fst_bead_params **beads, fst_error *error)
 {
     static const char name[] = "standard input";
     char *text = malloc(FST_SCENE_SIZE_LIMIT + 1);
@@ -41,7 +41,7 @@ static fst_status read_scene_from_input(fst_params *params, fst_error *error)
     else if (size == 0) /* the program before the pipe failed, and said why */
         status = fail(error, FST_BAD_INPUT, name, "it is empty: expected a scene");
     else
-        status = fst_scene_parse(text, size, name, params, error);
+        status = fst_scene_parse_beads(text, size, name, params, beads, error);
     free(text);
     return status;
 }
@@ -93,8 +93,8 @@ fst_status read_scene(const arguments *given, const char *path, fst_params *para
 {
     *params = fst_default_params();
     if (path) {
-        fst_status status =
-            strcmp(path, "-") == 0 ? read_scene_from_input(params, error) : fst_scene_read(path, params, error);
+        fst_status status = strcmp(path, "-") == 0 ? read_scene_from_input(params, given->beads, error)
+                                                   : fst_scene_read_beads(path, params, given->beads, error);
         if (status != FST_OK)
             return status;
         if (strcmp(path, "-") != 0)
@@ -107,7 +107,8 @@ fst_status read_scene(const arguments *given, const char *path, fst_params *para
         if (status != FST_OK)
             return status;
     }
-    params->run_discard = fst_run_discard(params); /* what is printed is what is done */
+    if (isnan(params->run_duration))
+        params->run_discard = fst_run_discard(params); /* what is printed is what is done */
     const fst_status status = check_effects(given, params, error);
     if (status != FST_OK) {
         (void)snprintf(error->where, sizeof error->where, "%s", path ? path : "");

@@ -50,12 +50,46 @@ static void print_part(FILE *out)
     }
 }
 
+/* Vectors, and what a bead of a list may say. */
+static void print_lists(FILE *out)
+{
+    (void)fprintf(out, "\nVectors; a scene writes them as lists (position: [20 mm, 0, 2.5 mm]):\n");
+    for (int i = fst_param_count(); fst_param_coil(i) < 0; ++i) {
+        const fst_param_info *info = fst_param_at(i);
+        if (fst_param_part(i) >= 0)
+            continue;
+        (void)fprintf(out, "%s\n", info->key);
+        print_limits(out, info);
+        (void)fprintf(out, "      %s\n", info->doc);
+    }
+    (void)fprintf(
+        out,
+        "\nOf each coil, N from 0 to %d; scenes list them (coils: [{radius: 5 cm, turns: 100, current: 1 "
+        "A}]):\n",
+        FST_COILS_MAX - 1);
+    for (int i = fst_param_find("coils[0].radius"); fst_param_coil(i) == 0; ++i) {
+        const fst_param_info *info = fst_param_at(i);
+        (void)fprintf(out, "coils[N]%s\n", strchr(info->key, ']') + 1);
+        print_limits(out, info);
+        (void)fprintf(out, "      %s\n", info->doc);
+    }
+    (void)fprintf(
+        out,
+        "\nOf each bead of a list, N from 0 to %d; what a bead does not say, the keys above say for it.  A "
+        "scene lists them (beads: [{start.phi: 3 deg}, {start.phi: 183 deg, radius: 2 mm}]):\n",
+        FST_BEADS_MOST - 1);
+    for (int i = fst_param_count(); fst_param_bead(i) < 1; ++i)
+        if (fst_param_bead(i) == 0)
+            (void)fprintf(out, "beads[N]%s\n", strchr(fst_param_at(i)->key, ']') + 1);
+}
+
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     if (option_value(given, "json"))
         return print_and_free(fst_schema_json(), out, error);
     print_table(out);
     print_part(out);
+    print_lists(out);
     return FST_OK;
 }
 

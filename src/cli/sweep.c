@@ -124,7 +124,7 @@ static void look_over(display *shown, const fst_params *params, const fst_sweep_
         shown->to_warn = fst_grid_params(grid, looks > 0 ? i * last / looks : 0, &shown->contradiction,
                                          &ignored) == FST_OK &&
                          fst_bead_contradiction(&shown->contradiction, sentence, sizeof sentence) != 0;
-    shown->can_draw = 1;
+    shown->can_draw = params->bead_count == 0;
     for (int a = 0; a < fst_grid_axis_count(grid); ++a)
         if (fst_grid_axis_points(grid, a) > 1) {
             varied += 1;
@@ -269,7 +269,9 @@ const command sweep_command = {
         "all\n"
         "the same.  --refine N computes the boundaries of a map and leaves out what lies between points that "
         "agree;\n"
-        "what is smaller than 2^N points may be missed.  Another N goes on with the same file.\n",
+        "what is smaller than 2^N points may be missed.  Another N goes on with the same file.  Rows of a "
+        "scene that\n"
+        "lists beads have outcome, the largest group, powers and counts of events.\n",
     .options = options,
     .most_operands = 1,
     .perform = perform,

@@ -407,7 +407,8 @@ static void make_title(const fst_branch *b, const shown *s, char *title, size_t 
 {
     static const char *const kinds[] = {[FST_BRANCH_COUNTER] = "Counter-rotating orbits",
                                         [FST_BRANCH_LOCKED] = "Locked states",
-                                        [FST_BRANCH_ALL] = "Locked states and orbits"};
+                                        [FST_BRANCH_ALL] = "Locked states and orbits",
+                                        [FST_BRANCH_LEVITATING] = "Places where the bead floats"};
     char over[128], second[128];
     const fst_scales none = {NAN, NAN, NAN, NAN};
     (void)snprintf(over, sizeof over, "%s", fst_quantity_of_parameter(b->key, FST_SHOWN_AS_GIVEN, &none).label);

@@ -27,14 +27,17 @@ static char *copy_of(const char *text, size_t size)
     return copy;
 }
 
-static int is_tame(const char *name)
+static fst_status check_tame(const char *name, const char *out, fst_error *error)
 {
     char *tame = copy_of(name, strlen(name));
-    if (tame)
-        fst_text_tame(tame);
-    const int same = tame && strcmp(tame, name) == 0;
+    if (!tame)
+        return fst_fail(error, FST_NO_MEMORY, out, "no memory for a figure");
+    fst_text_tame(tame);
+    const int same = strcmp(tame, name) == 0;
     free(tame);
-    return same;
+    return same ? FST_OK
+                : fst_fail(error, FST_BAD_INPUT, out,
+                           "a figure's name may hold neither control characters nor bytes that are no UTF-8");
 }
 
 /* Split OUT into directory, stem and ending. */
@@ -42,9 +45,9 @@ static fst_status take_apart(fst_figure_file *figure, const char *out, fst_error
 {
     const char *slash = strrchr(out, '/');
     const char *name = slash ? slash + 1 : out;
-    if (!is_tame(name)) /* the name stands in the script */
-        return fst_fail(error, FST_BAD_INPUT, out,
-                        "a figure's name may hold neither control characters nor bytes that are no UTF-8");
+    const fst_status status = check_tame(name, out, error); /* the name stands in the script */
+    if (status != FST_OK)
+        return status;
     const char *point = strrchr(name, '.');
     int known = point && (!strcmp(point, ".svg") || !strcmp(point, ".pdf") || !strcmp(point, ".png"));
     if (!known || point == name)

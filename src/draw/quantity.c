@@ -162,8 +162,11 @@ fst_quantity fst_quantity_of_parameter(const char *key, fst_shown_units units, c
     const fst_param_info *info = fst_param_at(fst_param_find(key));
     char words[96];
     const int part = fst_param_part(fst_param_find(key));
+    const int bead = fst_param_bead(fst_param_find(key));
     if (part >= 0)
         part_words(key, part, words, sizeof words);
+    else if (bead >= 0)
+        (void)snprintf(words, sizeof words, "%.60s of bead %d", strrchr(key, '.') + 1, bead);
     else
         find_words(parameters, sizeof parameters / sizeof parameters[0], key, 0, words, sizeof words);
     if (strcmp(key, "drive.frequency") == 0)

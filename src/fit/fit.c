@@ -125,21 +125,23 @@ static fst_status report_parameters(fit_problem *p, fit_estimate *e, fst_fit *fi
 }
 
 /* kappa gamma^2, by the change of its logarithm along each coordinate. */
-void fit_report_kappa_gamma2(const fit_problem *p, const fit_estimate *e, fst_fit *fit)
+fst_status fit_report_kappa_gamma2(const fit_problem *p, const fit_estimate *e, fst_fit *fit, fst_error *error)
 {
     const double step = 1e-6;
     double slope[FIT_MOST] = {0.0};
-    fit->kappa_gamma2 = fit_kappa_gamma2(&fit->params);
-    for (int k = 0; k < p->space.count; ++k) {
-        double u[FIT_MOST];
+    fst_status status = fit_kappa_gamma2(&fit->params, &fit->kappa_gamma2, error);
+    for (int k = 0; k < p->space.count && status == FST_OK; ++k) {
+        double u[FIT_MOST], there;
         fst_params moved;
         memcpy(u, e->u, sizeof u);
         u[k] += step;
         (void)fit_space_params(&p->space, u, &moved);
-        slope[k] = log(fit_kappa_gamma2(&moved) / fit->kappa_gamma2) / step;
+        status = fit_kappa_gamma2(&moved, &there, error);
+        slope[k] = log(there / fit->kappa_gamma2) / step;
     }
     fit->kappa_gamma2_error =
         fit->kappa_gamma2 * fit->error_scale * sqrt(fit_product(&e->covariance, slope, slope));
+    return status;
 }
 
 static fst_status report_numbers(fit_problem *p, const fit_estimate *e, const fst_points *points, fst_fit *fit,
@@ -223,8 +225,9 @@ static fst_status report_all(fit_problem *p, fit_stage *stage, fit_estimate *e, 
     if (status != FST_OK)
         return status;
     (void)fit_space_params(&p->space, e->u, &fit->params);
-    fit_report_kappa_gamma2(p, e, fit);
-    status = report_numbers(p, e, points, fit, error);
+    status = fit_report_kappa_gamma2(p, e, fit, error);
+    if (status == FST_OK)
+        status = report_numbers(p, e, points, fit, error);
     fit_stage_begin(stage, "curves", 0.6, 0.7, 4.0);
     if (status == FST_OK)
         status = fit_weakest(p, e, 1, fit, error);

@@ -9,7 +9,7 @@
 double fit_own_value(const fit_problem *p, const fit_estimate *e, int i);
 void fit_report_value(const fit_problem *p, const fit_estimate *e, int i, double deviation,
                       fst_fit_parameter *out);
-void fit_report_kappa_gamma2(const fit_problem *p, const fit_estimate *e, fst_fit *fit);
+fst_status fit_report_kappa_gamma2(const fit_problem *p, const fit_estimate *e, fst_fit *fit, fst_error *error);
 
 /* fit->weakest: the weakest direction, and, if `helpers`, which further number of a table would help most. */
 fst_status fit_weakest(const fit_problem *p, const fit_estimate *e, int helpers, fst_fit *fit,

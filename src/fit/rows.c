@@ -51,16 +51,25 @@ void fit_rows_free(fit_rows *rows)
 
 /* The table's sign: a magnet that turns clockwise, and the bead with it, is the mirror image of one that turns
  * counter-clockwise (PHYSICS, symmetries: M). */
-static void take_means(const fst_run_result *means, const fst_params *params, double sense, fit_value *out)
+static fst_status take_means(const fst_run_result *means, const fst_params *params, double sense,
+                             fit_value *out, fst_error *error)
 {
     fst_model *model = NULL;
-    if (fst_model_new(params, &model, NULL) != FST_OK)
-        return;
+    const fst_status status = fst_model_new(params, &model, error);
+    if (status != FST_OK)
+        return status;
     const fst_groups groups = fst_model_groups(model);
     fst_model_free(model);
     out->value[FST_MEASURED_MEAN_R] = means->mean_r * groups.length_unit;
     out->value[FST_MEASURED_STD_R] = means->std_r * groups.length_unit;
     out->value[FST_MEASURED_BEAD_FREQUENCY] = sense * means->mean_alpha_dot / (FST_TWO_PI * groups.time_unit);
+    return FST_OK;
+}
+
+/* Whether a status says nothing of the parameters, so that the search cannot go on. */
+static int ends_the_search(fst_status status)
+{
+    return status == FST_INTERRUPTED || status == FST_UNAVAILABLE || status == FST_NO_MEMORY;
 }
 
 static int is_finite(const fit_value *v)
@@ -90,14 +99,12 @@ static fst_status by_run(const fst_params *params, double sense, const fst_progr
     fst_run_options options = fst_default_run_options();
     fst_run_result result;
     options.progress = progress;
-    const fst_status status = fst_run(params, &options, &result, error);
-    if (status == FST_INTERRUPTED)
-        return status;
+    fst_status status = fst_run(params, &options, &result, error);
     if (status == FST_OK && result.regime != FST_REGIME_EJECTED && result.regime != FST_REGIME_LIFTED) {
-        take_means(&result, params, sense, out);
+        status = take_means(&result, params, sense, out, error);
         out->origin = is_finite(out) ? FIT_RUN : FIT_NOTHING;
     }
-    return FST_OK;
+    return ends_the_search(status) ? status : FST_OK;
 }
 
 /* The model in one row at the coordinates u and the frequency f. */
@@ -117,17 +124,19 @@ static fst_status find_value(const fit_rows *rows, const fit_row *row, const dou
         status = fst_orbit_near(&params, &guess, ORBIT_TOLERANCE, progress, &out->orbit, error);
     }
     /* Where a known orbit was lost another one is near, or none: long waits would only slow the search down. */
-    if (row->last.origin == FIT_ORBIT)
-        params.run_periods = fmin(params.run_periods, PERIODS_OF_ANOTHER);
-    if (status != FST_OK && status != FST_INTERRUPTED && status != FST_UNAVAILABLE)
-        status = fst_orbit_find(&params, progress, &out->orbit, error);
-    if (status == FST_INTERRUPTED || status == FST_UNAVAILABLE)
-        return status;
-    if (status == FST_OK) {
-        take_means(&out->orbit.means, &params, sense, out);
-        out->origin = is_finite(out) ? FIT_ORBIT : FIT_NOTHING;
-        return FST_OK;
+    if (row->last.origin == FIT_ORBIT) {
+        params.run_periods = fmin(fst_run_periods(&params), PERIODS_OF_ANOTHER);
+        params.run_duration = NAN;
     }
+    if (status != FST_OK && !ends_the_search(status))
+        status = fst_orbit_find(&params, progress, &out->orbit, error);
+    if (status == FST_OK) {
+        status = take_means(&out->orbit.means, &params, sense, out, error);
+        out->origin = is_finite(out) ? FIT_ORBIT : FIT_NOTHING;
+        return ends_the_search(status) ? status : FST_OK;
+    }
+    if (ends_the_search(status))
+        return status;
     return row->last.origin == FIT_ORBIT ? FST_OK : by_run(&params, sense, progress, out, error);
 }
 

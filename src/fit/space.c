@@ -288,12 +288,15 @@ double fit_space_params(const fit_space *space, const double *u, fst_params *par
     return outside;
 }
 
-double fit_kappa_gamma2(const fst_params *params)
+fst_status fit_kappa_gamma2(const fst_params *params, double *value, fst_error *error)
 {
     fst_model *model = NULL;
-    if (fst_model_new(params, &model, NULL) != FST_OK)
-        return NAN;
+    const fst_status status = fst_model_new(params, &model, error);
+    *value = NAN;
+    if (status != FST_OK)
+        return status == FST_NO_MEMORY ? status : FST_OK;
     const fst_groups groups = fst_model_groups(model);
     fst_model_free(model);
-    return groups.kappa / (groups.time_unit * groups.time_unit);
+    *value = groups.kappa / (groups.time_unit * groups.time_unit);
+    return FST_OK;
 }

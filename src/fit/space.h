@@ -38,7 +38,7 @@ void fit_space_own(const fit_space *space, int i, double c[FIT_MOST]);
 double fit_space_at(const fit_space *space, int i, double q);
 double fit_space_slope(const fit_space *space, int i, double q);
 
-/* kappa gamma^2 in 1/s^2, mu B0/(m R^2), of a setup; NAN where there is no model of it. */
-double fit_kappa_gamma2(const fst_params *params);
+/* kappa gamma^2 in 1/s^2, mu B0/(m R^2), of a setup; NAN where there is no model of it.  Fails where memory runs out. */
+fst_status fit_kappa_gamma2(const fst_params *params, double *value, fst_error *error);
 
 #endif

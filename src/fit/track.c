@@ -103,7 +103,7 @@ static fst_status find_path(film_fit *f, const double *v, fit_path *path, fst_er
     params.drive_omega = NAN;
     if (f->orbit.means.period > 0.0)
         status = fst_orbit_near(&params, &f->orbit, 1e-11, &f->progress, &orbit, error);
-    if (status != FST_OK && status != FST_INTERRUPTED)
+    if (status != FST_OK && status != FST_INTERRUPTED && status != FST_NO_MEMORY)
         status = fst_orbit_find(&params, &f->progress, &orbit, error);
     if (status == FST_OK)
         status = fit_path_make(&params, &orbit, path, error);
@@ -414,8 +414,9 @@ static fst_status report(film_fit *f, const fit_estimate *e, double left, int re
         for (int j = 0; j < fit->count; ++j)
             fit->correlation[i][j] = fit_correlation(&p, e, i, j);
     }
-    fit_report_kappa_gamma2(&p, e, fit);
-    const fst_status status = fit_weakest(&p, e, 0, fit, error);
+    fst_status status = fit_report_kappa_gamma2(&p, e, fit, error);
+    if (status == FST_OK)
+        status = fit_weakest(&p, e, 0, fit, error);
     return status != FST_OK ? status
                             : fit_remark(fit, error,
                                          "%d frames, %d of them left out; places scatter by %.3g mm about the "
@@ -451,7 +452,7 @@ static fst_status begin(film_fit *f, const fst_params *params, const fst_measure
     if (status == FST_OK)
         start = rough.params;
     fst_fit_free(&rough);
-    if (status == FST_INTERRUPTED || status == FST_UNAVAILABLE)
+    if (status == FST_INTERRUPTED || status == FST_UNAVAILABLE || status == FST_NO_MEMORY)
         return status;
     f->drive = fabs(drive);
     f->sense = drive < 0 ? -1.0 : 1.0;

@@ -1,6 +1,8 @@
 /* lab_page.c - the page festoon-lab.html: where it lies, its address for a scene, and opening it on a desktop.
  */
+#ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* dladdr(), mkstemps() */
+#endif
 #include <festoon/festoon_tools.h>
 
 #include <ctype.h>

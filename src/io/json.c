@@ -31,16 +31,19 @@ static json_t *parameter(const fst_params *params, int index)
 static void put_parts(fst_json *json, const fst_params *params)
 {
     fst_json_open(json, "magnet.parts", '[');
-    for (int i = fst_param_count(); i < fst_params_row_count(params); ++i) {
+    for (int i = fst_param_count(); fst_param_part(i) >= 0 && fst_param_part(i) < params->magnet_part_count;
+         ++i) {
         const char *key = strrchr(fst_param_at(i)->key, '.') + 1;
         const size_t length = strcspn(key, "[");
         char name[32];
         (void)snprintf(name, sizeof name, "%.*s", (int)length, key);
         json_t *value = parameter(params, i);
-        if (fst_param_at(i)->kind == FST_KIND_CHOICE) {
+        if (strcmp(name, "kind") == 0) {
             if (i > fst_param_count())
                 fst_json_close(json);
             fst_json_open(json, NULL, '{');
+            fst_json_put(json, name, value);
+        } else if (json_is_string(value)) {
             fst_json_put(json, name, value);
         } else if (json_is_null(value)) {
             json_decref(value); /* the kind of part has no such number */
@@ -55,6 +58,27 @@ static void put_parts(fst_json *json, const fst_params *params)
     fst_json_close(json);
 }
 
+/* The beads as a list of objects, each with what the bead says of its own. */
+static void put_beads(fst_json *json, const fst_params *params)
+{
+    fst_params alone = fst_default_params();
+    alone.bead_count = 1;
+    fst_json_open(json, "beads", '[');
+    for (int bead = 0; bead < params->bead_count; ++bead) {
+        alone.beads[0] = params->bead_count > FST_BEADS_MOST ? params->bead_list[bead] : params->beads[bead];
+        fst_json_open(json, NULL, '{');
+        for (int i = fst_param_count(); i < fst_params_row_count(&alone); ++i) {
+            json_t *value = fst_param_bead(i) == 0 ? parameter(&alone, i) : json_null();
+            if (json_is_null(value))
+                json_decref(value);
+            else
+                fst_json_put(json, strchr(fst_param_at(i)->key, ']') + 2, value);
+        }
+        fst_json_close(json);
+    }
+    fst_json_close(json);
+}
+
 void fst_json_scene(fst_json *json, const fst_params *params)
 {
     fst_json_open(json, "scene", '{');
@@ -62,13 +86,18 @@ void fst_json_scene(fst_json *json, const fst_params *params)
         fst_json_put(json, fst_param_at(i)->key, parameter(params, i));
     if (params->magnet_part_count)
         put_parts(json, params);
+    for (int i = fst_param_count(); i < fst_params_row_count(params); ++i)
+        if (fst_param_part(i) < 0 && fst_param_bead(i) < 0 && fst_param_coil(i) < params->coil_count)
+            fst_json_put(json, fst_param_at(i)->key, parameter(params, i));
+    if (params->bead_count)
+        put_beads(json, params);
     fst_json_close(json);
 }
 
 static void put_groups(fst_json *json, const fst_params *params)
 {
     fst_model *model = NULL;
-    const fst_status status = fst_model_new(params, &model, NULL);
+    const fst_status status = fst_field_model_new(params, NAN, &model, NULL);
     if (status != FST_OK) {
         fst_json_put(json, "groups", status == FST_NO_MEMORY ? NULL : json_null());
         return;
@@ -125,7 +154,8 @@ static const char *choice_text(const fst_params *params, const char *key, char *
     return text;
 }
 
-void fst_json_run(fst_json *json, const fst_params *params, const fst_run_result *result)
+/* All but the state. */
+static void put_run(fst_json *json, const fst_params *params, const fst_run_result *result)
 {
     char dynamics[48];
     fst_json_text(json, "regime", fst_regime_name(result->regime));
@@ -144,6 +174,11 @@ void fst_json_run(fst_json *json, const fst_params *params, const fst_run_result
     fst_json_integer(json, "rhs_calls", (int64_t)result->rhs_calls);
     fst_json_integer(json, "steps_accepted", (int64_t)result->accepted);
     fst_json_integer(json, "steps_rejected", (int64_t)result->rejected);
+}
+
+void fst_json_run(fst_json *json, const fst_params *params, const fst_run_result *result)
+{
+    put_run(json, params, result);
     fst_json_reals(json, "final_state", result->final_state, FST_STATE_SIZE);
 }
 
@@ -188,6 +223,25 @@ static void put_si(fst_json *json, const fst_params *params, const fst_run_resul
             fst_json_real(json, key, unknown ? NAN : value * factor);
         }
     }
+}
+
+char *fst_world_json(const fst_params *params, const fst_world_result *result, fst_shown_units units)
+{
+    fst_json json = fst_json_begin('{');
+    put_run(&json, params, &result->run);
+    if (units == FST_SHOWN_LAB || units == FST_SHOWN_SI)
+        put_si(&json, params, &result->run);
+    fst_json_reals(&json, "final_state", result->final_state, FST_BEAD_NUMBERS);
+    fst_json_name(&json, "frame", FST_WORDS(FST_FRAMES), result->frame);
+    fst_json_real(&json, "final_time", result->final_time);
+    fst_json_reals(&json, "final_lab", result->final_lab, FST_BEAD_NUMBERS);
+    fst_json_reals(&json, "final_lab_si", result->final_lab_si, FST_BEAD_NUMBERS);
+    fst_json_real(&json, "mean_height", result->mean_height);
+    fst_json_real(&json, "mean_medium_power", result->mean_medium_power);
+    put_groups(&json, params);
+    fst_json_scene(&json, params);
+    fst_json_text(&json, "version", fst_version());
+    return fst_json_end(&json, JSON_INDENT(2));
 }
 
 char *fst_run_json(const fst_params *params, const fst_run_result *result, const fst_ramp_point *ramp,
@@ -291,6 +345,40 @@ char *fst_field_json(const fst_model *model, double x, double y, fst_shown_units
     if (in_si)
         put_field(&json, b, grad, g.field_unit, g.field_unit / g.length_unit, "b_tesla", "grad_tesla_per_m");
     put_pull(&json, model, x, y, in_si);
+    return fst_json_end(&json, JSON_INDENT(2));
+}
+
+char *fst_field_at_json(const fst_params *params, double time, const double place[3], const double b[3],
+                        double grad[3][3])
+{
+    fst_model *model = NULL;
+    if (fst_field_model_new(params, NAN, &model, NULL) != FST_OK)
+        return NULL;
+    const fst_groups g = fst_model_groups(model);
+    fst_model_free(model);
+    fst_json json = fst_json_begin('{');
+    fst_json_real(&json, "time", time);
+    fst_json_reals(&json, "place", place, 3);
+    put_field(&json, b, grad, 1.0, 1.0, "b", "grad");
+    if (isfinite(g.field_unit))
+        put_field(&json, b, grad, g.field_unit, g.field_unit / g.length_unit, "b_tesla", "grad_tesla_per_m");
+    return fst_json_end(&json, JSON_INDENT(2));
+}
+
+char *fst_world_orbit_json(const fst_params *params, const fst_world_orbit *orbit)
+{
+    fst_json json = fst_json_begin('{');
+    fst_json_real(&json, "period", orbit->period);
+    fst_json_name(&json, "frame", FST_WORDS(FST_FRAMES), orbit->frame);
+    fst_json_open(&json, "multipliers", '[');
+    for (int i = 0; i < orbit->count; ++i)
+        fst_json_reals(&json, NULL, orbit->multipliers[i], 2);
+    fst_json_close(&json);
+    fst_json_flag(&json, "stable", orbit->stable);
+    fst_json_reals(&json, "state", orbit->state, FST_BEAD_NUMBERS);
+    fst_json_real(&json, "residual", orbit->residual);
+    fst_json_scene(&json, params);
+    fst_json_text(&json, "version", fst_version());
     return fst_json_end(&json, JSON_INDENT(2));
 }
 

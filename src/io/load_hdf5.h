@@ -13,4 +13,7 @@ fst_status fst_load_hdf5_module(const fst_hdf5_module_table **module, const char
 fst_status fst_load_hdf5_file(const fst_hdf5_module_table **module, const char *path, char **bytes,
                               size_t *size, fst_error *error);
 
+/* Whether a file begins as every HDF5 file that HDF5 itself made. */
+fst_status fst_look_for_hdf5(const char *path, int *is_hdf5, fst_error *error);
+
 #endif

@@ -30,10 +30,11 @@ static fst_status note_value(scene_reader *reader, const char *key, int line, co
         fst_params_set(&scratch, key, "", &why);
         return fst_scene_fail(reader, line, why.sentence);
     }
-    if (fst_param_part(index) >= 0) {
-        (void)snprintf(sentence, sizeof sentence,
-                       "%s: a scene lists its parts whole, as in \"parts: [{kind: cuboid, centre: ...}]\"",
-                       key);
+    if (fst_param_part(index) >= 0 || fst_param_bead(index) >= 0) {
+        (void)snprintf(sentence, sizeof sentence, "%s: a scene lists its %s whole, as in \"%s\"", key,
+                       fst_param_part(index) >= 0 ? "parts" : "beads",
+                       fst_param_part(index) >= 0 ? "parts: [{kind: cuboid, centre: ...}]"
+                                                  : "beads: [{start.phi: 3 deg}, {start.phi: 183 deg}]");
         return fst_scene_fail(reader, line, sentence);
     }
     if (reader->values[index]) {
@@ -41,6 +42,8 @@ static fst_status note_value(scene_reader *reader, const char *key, int line, co
                        reader->lines[index]);
         return fst_scene_fail(reader, line, sentence);
     }
+    if (fst_param_coil(index) >= 0)
+        scratch.coil_count = fst_param_coil(index); /* those before it have their own keys */
     const char *text = fst_scene_scalar(event);
     if (!text || fst_scene_null(event)) {
         (void)snprintf(sentence, sizeof sentence, "%s has no value: give it one, or remove the line", key);
@@ -54,7 +57,7 @@ static fst_status note_value(scene_reader *reader, const char *key, int line, co
 static int is_group(const char *name)
 {
     size_t length = strlen(name);
-    for (int i = 0; i < fst_param_count(); ++i) {
+    for (int i = 0; fst_param_at(i); ++i) {
         const char *key = fst_param_at(i)->key;
         if (strncmp(key, name, length) == 0 && key[length] == '.')
             return 1;
@@ -80,16 +83,78 @@ static fst_status unknown_group(scene_reader *reader, int line, const char *name
 
 static fst_status read_mapping(scene_reader *reader, const char *group, int start_line);
 
+/* Whether the key stands for a list of numbers, as start.position does. */
+static int is_list(const char *key)
+{
+    char first[112];
+    (void)snprintf(first, sizeof first, "%s[0]", key);
+    return fst_param_find(first) >= 0;
+}
+
+/* Read a list whose start was read: its numbers have the keys key[0], key[1], ... */
+static fst_status read_list(scene_reader *reader, const char *key)
+{
+    fst_status status = FST_OK;
+    for (int i = 0, ends = 0; status == FST_OK && !ends; ++i) {
+        yaml_event_t event;
+        char element[112];
+        (void)snprintf(element, sizeof element, "%s[%d]", key, i);
+        status = fst_scene_event(reader, &event);
+        if (status != FST_OK)
+            return status;
+        const int line = fst_scene_line(event.start_mark);
+        ends = event.type == YAML_SEQUENCE_END_EVENT;
+        if (!ends && event.type == YAML_SCALAR_EVENT)
+            status = note_value(reader, element, line, &event);
+        else if (!ends)
+            status = fst_scene_fail(reader, line, "a list within a list says nothing here");
+        yaml_event_delete(&event);
+    }
+    return status;
+}
+
+/* Read the list of coils, whose start was read: each is a group of keys, coils[0], coils[1], ... */
+static fst_status read_coils(scene_reader *reader)
+{
+    for (int i = 0;; ++i) {
+        yaml_event_t event;
+        char coil[32];
+        fst_status status = fst_scene_event(reader, &event);
+        if (status != FST_OK)
+            return status;
+        const int line = fst_scene_line(event.start_mark), ends = event.type == YAML_SEQUENCE_END_EVENT;
+        const int maps = event.type == YAML_MAPPING_START_EVENT;
+        yaml_event_delete(&event);
+        (void)snprintf(coil, sizeof coil, "coils[%d]", i);
+        if (maps)
+            status = read_mapping(reader, coil, line);
+        else if (!ends)
+            status = fst_scene_fail(reader, line, "a coil is keys and values, as in \"- radius: 5 cm\"");
+        if (status != FST_OK || ends)
+            return status;
+    }
+}
+
 /* Read the value behind the key `name`, on this line, in `group` (NULL: top level). */
 static fst_status read_value(scene_reader *reader, const char *group, const char *name, int line,
                              const yaml_event_t *event)
 {
     char key[96], quoted[FST_QUOTE_SIZE], sentence[256];
+    if (!group && strcmp(name, "beads") == 0)
+        return fst_scene_beads(reader, line, event);
     if (!group && event->type == YAML_MAPPING_START_EVENT)
         return is_group(name) ? read_mapping(reader, name, line) : unknown_group(reader, line, name);
     (void)snprintf(key, sizeof key, "%s%s%.80s", group ? group : "", group ? "." : "", name);
     if (strcmp(key, "magnet.parts") == 0)
         return fst_scene_parts(reader, line, event);
+    if (event->type == YAML_SEQUENCE_START_EVENT && is_list(key))
+        return read_list(reader, key);
+    if (event->type == YAML_SCALAR_EVENT && is_list(key)) {
+        (void)snprintf(sentence, sizeof sentence, "%s must be a list of numbers: [x, y, z]", key);
+        return fst_scene_fail(reader, line, sentence);
+    }
+    if (strcmp(key, "coils") == 0 && event->type == YAML_SEQUENCE_START_EVENT)
+        return read_coils(reader);
     if (event->type != YAML_SCALAR_EVENT) {
         (void)snprintf(sentence, sizeof sentence, "%s must be one value, not a %s", fst_quote(key, quoted),
                        event->type == YAML_SEQUENCE_START_EVENT ? "list" : "group of keys");
@@ -220,8 +285,8 @@ static fst_status given_twice(scene_reader *reader, int one, int two)
 /* A quantity given in two ways is an error, because nobody knows which was meant. */
 static fst_status check_forms(scene_reader *reader, const fst_params *params)
 {
-    for (int one = 0; one < fst_param_count(); ++one)
-        for (int two = one + 1; two < fst_param_count() && reader->values[one]; ++two)
+    for (int one = 0; one < reader->count; ++one)
+        for (int two = one + 1; two < reader->count && reader->values[one]; ++two)
             if (reader->values[two] && fst_params_clash(params, fst_param_at(one)->key, fst_param_at(two)->key))
                 return given_twice(reader, one, two);
     return FST_OK;
@@ -241,6 +306,12 @@ static fst_status apply(const scene_reader *reader, fst_params *changed)
     const int shape = fst_param_find("magnet.shape"), kappa = fst_param_find("model.kappa");
     if (reader->lists_parts)
         changed->magnet_part_count = 0;
+    if (reader->bead_count) {
+        changed->bead_count = reader->bead_count;
+        changed->bead_list = reader->bead_count > FST_BEADS_MOST ? reader->beads : NULL;
+        for (int i = 0; i < reader->bead_count && i < FST_BEADS_MOST; ++i)
+            changed->beads[i] = reader->beads[i];
+    }
     fst_status status = set_given(reader, shape, changed);
     if (status == FST_OK)
         status = set_given(reader, kappa, changed);
@@ -266,8 +337,17 @@ static fst_status check_whole(scene_reader *reader, const fst_params *params)
 fst_status fst_scene_parse(const char *text, size_t size, const char *name, fst_params *params,
                            fst_error *error)
 {
+    return fst_scene_parse_beads(text, size, name, params, NULL, error);
+}
+
+fst_status fst_scene_parse_beads(const char *text, size_t size, const char *name, fst_params *params,
+                                 fst_bead_params **beads, fst_error *error)
+{
     fst_error unseen;
-    scene_reader reader = {.name = name, .text = text, .size = size, .error = error ? error : &unseen};
+    scene_reader reader = {
+        .name = name, .text = text, .size = size, .list = beads, .error = error ? error : &unseen};
+    if (beads)
+        *beads = NULL;
     while (fst_param_at(reader.count))
         ++reader.count;
     if (size > FST_SCENE_SIZE_LIMIT)
@@ -288,6 +368,10 @@ fst_status fst_scene_parse(const char *text, size_t size, const char *name, fst_
             status = check_whole(&reader, &changed);
         if (status == FST_OK)
             *params = changed;
+        if (status == FST_OK && reader.bead_count > FST_BEADS_MOST) {
+            *beads = reader.beads;
+            reader.beads = NULL;
+        }
     } else {
         fst_fail(error, FST_NO_MEMORY, name, "out of memory");
     }
@@ -295,6 +379,7 @@ fst_status fst_scene_parse(const char *text, size_t size, const char *name, fst_
         free(reader.values[i]);
     free(reader.values);
     free(reader.lines);
+    free(reader.beads);
     return status;
 }
 
@@ -319,6 +404,11 @@ static fst_status begin_at_scene(const char *path, char file[sizeof((fst_params 
 
 fst_status fst_scene_read(const char *path, fst_params *params, fst_error *error)
 {
+    return fst_scene_read_beads(path, params, NULL, error);
+}
+
+fst_status fst_scene_read_beads(const char *path, fst_params *params, fst_bead_params **beads, fst_error *error)
+{
     char *text;
     size_t size;
     fst_params changed = *params;
@@ -326,7 +416,7 @@ fst_status fst_scene_read(const char *path, fst_params *params, fst_error *error
     if (status != FST_OK)
         return status;
     changed.magnet_file[0] = '\0';
-    status = fst_scene_parse(text, size, path, &changed, error);
+    status = fst_scene_parse_beads(text, size, path, &changed, beads, error);
     free(text);
     if (status == FST_OK && !changed.magnet_file[0])
         memcpy(changed.magnet_file, params->magnet_file, sizeof changed.magnet_file);

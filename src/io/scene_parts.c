@@ -9,7 +9,7 @@
 #include "base/text.h"
 #include "io/scene_reader.h"
 
-enum { KIND, CENTRE, SIZE, REMANENCE, MOMENT, ROTATION, FIELDS, MOST_VALUES = 4 };
+enum { KIND, CENTRE, SIZE, REMANENCE, MOMENT, ROTATION, MOTION, FIELDS, MOST_VALUES = 4 };
 
 /* The keys of a part.  `shape` shows a list of them; the unit of a size follows from the kind. */
 static const struct {
@@ -22,8 +22,9 @@ static const struct {
     [REMANENCE] = {"remanence", "[x, y, z]", 3},
     [MOMENT] = {"moment", "[x, y, z]", 3},
     [ROTATION] = {"rotation", "[degrees, x, y, z]", 4},
+    [MOTION] = {"motion", "turning", 1},
 };
-#define FIELD_NAMES "kind|centre|size|remanence|moment|rotation"
+#define FIELD_NAMES "kind|centre|size|remanence|moment|rotation|motion"
 
 static const char *const size_shapes[FST_PART_KINDS] = {
     [FST_PART_CUBOID] = "[edge along x, along y, along z]",
@@ -142,8 +143,8 @@ static fst_status read_part_text(scene_reader *reader, part_text *p)
 static int row_of(const part_text *p, int field, int k)
 {
     char key[64];
-    if (field == KIND)
-        (void)snprintf(key, sizeof key, "magnet.parts[%d].kind", p->part);
+    if (field == KIND || field == MOTION)
+        (void)snprintf(key, sizeof key, "magnet.parts[%d].%s", p->part, fields[field].name);
     else
         (void)snprintf(key, sizeof key, "magnet.parts[%d].%s[%d]", p->part, fields[field].name, k);
     return fst_param_find(key);
@@ -182,7 +183,7 @@ static fst_status too_few(scene_reader *reader, const part_text *p, int field, i
 static fst_status note_field(scene_reader *reader, const part_text *p, int field, fst_params *scratch)
 {
     const int kind = scratch->magnet_parts[p->part].kind, count = p->counts[field];
-    const int needed = wanted(p, field, scratch), optional = field == ROTATION;
+    const int needed = wanted(p, field, scratch), optional = field >= ROTATION;
     if (count < needed && (p->lines[field] || !optional))
         return too_few(reader, p, field, kind);
     if (p->lines[field] && count == 0)

@@ -17,6 +17,9 @@ typedef struct scene_reader {
     int *lines;    /* the line on which each was given */
     int lists_parts;
     int part_lines[FST_PARTS_MAX];
+    int bead_count; /* of the list that was read */
+    fst_bead_params *beads;
+    fst_bead_params **list; /* where those of a long list go; NULL: nowhere */
     fst_error *error;
 } scene_reader;
 
@@ -38,7 +41,8 @@ const char *fst_scene_scalar(const yaml_event_t *event);
 /* Note a parameter's value, on this line, after it was tried on `scratch`. */
 fst_status fst_scene_note(scene_reader *reader, int index, int line, const char *text, fst_params *scratch);
 
-/* Read magnet.parts, whose first event was read (scene_parts.c). */
+/* Read magnet.parts, whose first event was read (scene_parts.c), and beads (scene_beads.c). */
 fst_status fst_scene_parts(scene_reader *reader, int line, const yaml_event_t *start);
+fst_status fst_scene_beads(scene_reader *reader, int line, const yaml_event_t *start);
 
 #endif

@@ -110,7 +110,7 @@ static int write_part_numbers(FILE *out, const fst_params *params, int row)
     const int silent = strncmp(key, "rotation", length) == 0 && stays;
     char value[VALUE_SIZE];
     int count = 0, written = 0;
-    for (; row + count < fst_params_row_count(params); ++count) {
+    for (; fst_param_part(row + count) >= 0; ++count) {
         if (strncmp(key, strrchr(fst_param_at(row + count)->key, '.') + 1, length + 1) != 0)
             break;
         value_text(params, row + count, value);
@@ -131,10 +131,14 @@ static void write_parts(FILE *out, const fst_params *params)
     char kind[32];
     if (params->magnet_part_count)
         (void)fputs("  parts:\n", out);
-    for (int row = fst_param_count(); row < fst_params_row_count(params);) {
+    for (int row = fst_param_count();
+         fst_param_part(row) >= 0 && fst_param_part(row) < params->magnet_part_count;) {
         if (fst_param_at(row)->kind == FST_KIND_CHOICE) {
+            const char *name = strrchr(fst_param_at(row)->key, '.') + 1;
+            const int begins = strcmp(name, "kind") == 0;
             (void)fst_params_get(params, row, kind, sizeof kind);
-            (void)fprintf(out, "    - kind: %s\n", kind);
+            if (begins || params->magnet_parts[fst_param_part(row)].motion != FST_PART_TURNING)
+                (void)fprintf(out, "    %s %s: %s\n", begins ? "-" : " ", name, kind);
             ++row;
         } else {
             row += write_part_numbers(out, params, row);
@@ -151,7 +155,59 @@ static const char parts_example[] =
     "  #     centre: [0 mm, 0 mm, 0 mm]\n"
     "  #     size: [56 mm, 40 mm, 9 mm]\n"
     "  #     remanence: [1.2 T, 0 T, 0 T]\n"
-    "  #     rotation: [0 deg, 0, 0, 1]\n";
+    "  #     rotation: [0 deg, 0, 0, 1]\n"
+    "  #     motion: turning\n";
+
+/* Vectors and coils, as far as they are given, below all groups. */
+static void write_lists(FILE *out, const fst_params *params)
+{
+    const fst_params usual = fst_default_params();
+    char value[VALUE_SIZE], initial[VALUE_SIZE];
+    for (int i = fst_param_count(); i < fst_params_row_count(params); ++i) {
+        if (fst_param_part(i) >= 0 || fst_param_bead(i) >= 0)
+            continue;
+        value_text(params, i, value);
+        value_text(&usual, i, initial);
+        if (value[0] && strcmp(value, initial) != 0)
+            (void)fprintf(out, "%s: %s\n", fst_param_at(i)->key, value);
+    }
+}
+
+static const char beads_example[] =
+    "\n# Several beads, each with what it says of its own: keys of bead and start.\n"
+    "# beads:\n"
+    "#   - start.phi: 3 deg\n"
+    "#   - start.phi: 183 deg\n";
+
+/* One bead of the list, which is the first of `alone`: what it says of its own, key by key. */
+static void write_bead(FILE *out, const fst_params *alone)
+{
+    char value[VALUE_SIZE];
+    int said = 0;
+    for (int i = fst_param_count(); i < fst_params_row_count(alone); ++i) {
+        if (fst_param_bead(i) < 0)
+            continue;
+        value_text(alone, i, value);
+        if (value[0])
+            (void)fprintf(out, "  %s %s: %s\n", said++ ? " " : "-", strchr(fst_param_at(i)->key, ']') + 2,
+                          value);
+    }
+    (void)fputs(said ? "" : "  - {}\n", out);
+}
+
+static void write_beads(FILE *out, const fst_params *params, int commented)
+{
+    fst_params alone = fst_default_params();
+    if (commented && !params->bead_count)
+        (void)fputs(beads_example, out);
+    if (params->bead_count)
+        (void)fputs("beads:\n", out);
+    alone.bead_count = 1;
+    for (int bead = 0; bead < params->bead_count; ++bead) {
+        alone.beads[0] = params->bead_count > FST_BEADS_MOST ? params->bead_list[bead] : params->beads[bead];
+        write_bead(out, &alone);
+    }
+}
 
 /* What stands behind the keys of the group that ends. */
 static void end_group(FILE *out, const fst_params *params, const char *group, int commented)
@@ -193,6 +249,8 @@ static void write_scene(FILE *out, const fst_params *params, int commented)
         else
             (void)fprintf(out, "  # %s:\n", name);
     }
+    write_lists(out, params);
+    write_beads(out, params, commented);
 }
 
 char *fst_scene_text(const fst_params *params, int commented)

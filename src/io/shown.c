@@ -37,7 +37,7 @@ fst_scales fst_scales_of(const fst_params *params)
         .field = NAN,
     };
     fst_model *model = NULL;
-    if (fst_model_new(params, &model, NULL) == FST_OK)
+    if (fst_field_model_new(params, NAN, &model, NULL) == FST_OK)
         scales.field = fst_model_groups(model).field_unit;
     fst_model_free(model);
     return scales;
@@ -69,6 +69,8 @@ static int is_rotation(const char *name)
 {
     static const char *const rotations[] = {"mean_alpha_dot",
                                             "mean_alpha_dot_error",
+                                            "centre_rate",
+                                            "axis_rate",
                                             "mean_phi_dot",
                                             "omega",
                                             "WX",

@@ -48,10 +48,9 @@ static fst_status begin(fst_trajectory *trajectory, const char *path, int hdf5, 
     if (hdf5) {
         status = trajectory->module->create(trajectory->file.path, trajectory->columns, FST_COLUMN_COUNT, scene,
                                             &trajectory->writer, error);
-    } else if (trajectory->other_units) {
-        fst_csv_begin_in(trajectory->file.stream, scene, trajectory->units);
     } else {
-        fst_csv_begin(trajectory->file.stream, scene);
+        fst_csv_begin(trajectory->file.stream, 0, scene, trajectory->columns, FST_COLUMN_COUNT,
+                      trajectory->other_units ? trajectory->units : NULL);
     }
     free(scene);
     return status;
@@ -114,7 +113,7 @@ fst_status fst_trajectory_append(fst_trajectory *trajectory, const fst_sample *s
         values[i] *= trajectory->factors[i];
     if (trajectory->writer)
         return trajectory->module->row(trajectory->writer, values, error);
-    fst_csv_row(trajectory->file.stream, values);
+    fst_csv_row(trajectory->file.stream, values, FST_COLUMN_COUNT);
     if (ferror(trajectory->file.stream))
         return fst_fail(error, FST_IO, trajectory->file.path, "writing this file failed: is the disk full?");
     return FST_OK;
@@ -152,9 +151,7 @@ void fst_trajectory_discard(fst_trajectory *trajectory)
 
 /* ---------------------------------------------------------------- reading */
 
-/* The first eight bytes of every HDF5 file that HDF5 itself made.  (Other programs may put a block of their own
- * first.) */
-static fst_status look_for_hdf5(const char *path, int *is_hdf5, fst_error *error)
+fst_status fst_look_for_hdf5(const char *path, int *is_hdf5, fst_error *error)
 {
     static const char signature[8] = {'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
     char begin_bytes[8];
@@ -183,6 +180,10 @@ static fst_status read_hdf5(const char *path, fst_table *table, fst_error *error
                           table->columns, &table->rows, &scene, &table->complete, error);
     if (status == FST_OK)
         status = fst_scene_parse(scene, strlen(scene), path, &table->params, error);
+    else if (scene && fst_scene_parse(scene, strlen(scene), path, &table->params, NULL) == FST_OK &&
+             table->params.bead_count)
+        status = fst_fail(error, FST_BAD_INPUT, path,
+                          "this is a trajectory of several beads, and one of a single bead is wanted here");
     free(bytes);
     free(scene);
     return status;
@@ -247,7 +248,7 @@ fst_status fst_trajectory_read(const char *path, fst_table *table, fst_error *er
 {
     *table = (fst_table){.params = fst_default_params()};
     int is_hdf5 = 0;
-    fst_status status = look_for_hdf5(path, &is_hdf5, error);
+    fst_status status = fst_look_for_hdf5(path, &is_hdf5, error);
     if (status != FST_OK)
         return status;
     table->columns = calloc(FST_COLUMN_COUNT, sizeof *table->columns);

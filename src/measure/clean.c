@@ -6,7 +6,6 @@
  */
 #include "measure/work.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/order.h"
@@ -44,10 +43,7 @@ size_t measure_reject_jumps(fst_track *track, const measure_work *work)
     size_t rejected = 0;
     if (work->count < 8)
         return 0;
-    double *bulges = malloc(2 * work->count * sizeof *bulges);
-    if (!bulges)
-        return 0; /* the model finds them too, only later */
-    double *sorted = bulges + work->count;
+    double *bulges = work->scratch, *sorted = bulges + work->count;
     reject_outside(track, work, sorted);
     for (size_t i = 1; i + 1 < work->count; ++i)
         sorted[i - 1] = bulges[i] = bulge(work, i);
@@ -59,7 +55,6 @@ size_t measure_reject_jumps(fst_track *track, const measure_work *work)
             track->flag[work->row[i]] = FST_FRAME_REJECTED;
     for (size_t i = 0; i < work->count; ++i)
         rejected += track->flag[work->row[i]] == FST_FRAME_REJECTED;
-    free(bulges);
     return rejected;
 }
 
@@ -74,10 +69,8 @@ static double usual_distance(const measure_work *work, double *sorted)
 size_t measure_take_back(fst_track *track, measure_work *work)
 {
     size_t taken = 0;
-    double row[MEASURE_MOST_COLUMNS], *sorted = malloc((work->count + 1) * sizeof *sorted);
-    if (!sorted)
-        return 0;
-    const double limit = 4.0 * usual_distance(work, sorted);
+    double row[MEASURE_MOST_COLUMNS];
+    const double limit = 4.0 * usual_distance(work, work->scratch);
     const size_t spare = work->count; /* there is room for one row more */
     for (size_t i = 0; i < track->rows; ++i) {
         if (track->flag[i] != FST_FRAME_REJECTED)
@@ -92,17 +85,13 @@ size_t measure_take_back(fst_track *track, measure_work *work)
             ++taken;
         }
     }
-    free(sorted);
     return taken;
 }
 
 size_t measure_reject_far(fst_track *track, const measure_work *work)
 {
     size_t rejected = 0;
-    double *off = malloc(2 * work->count * sizeof *off);
-    if (!off)
-        return 0;
-    double *sorted = off + work->count;
+    double *off = work->scratch, *sorted = off + work->count;
     for (size_t i = 0; i < work->count; ++i) {
         off[i] = hypot(work->r_off[i], work->r[i] * work->a_off[i]);
     }
@@ -119,6 +108,5 @@ size_t measure_reject_far(fst_track *track, const measure_work *work)
             ++rejected;
         }
     }
-    free(off);
     return rejected;
 }

@@ -326,5 +326,10 @@ fst_status measure_find_drive(measure_work *work, const fst_measure_options *opt
         found->radial = work->f0;
     }
     found->unsure = found->symmetry == 2 && measure_may_hide_line(work, 1, 2);
+    /* What every second festoon differs by may be but the rest of the motion's beginning. */
+    if (status == FST_OK && found->symmetry == 1 && work->half && measure_line_dies(work, 1)) {
+        found->symmetry = 2;
+        found->unsure = found->fades = 1;
+    }
     return status;
 }

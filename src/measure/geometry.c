@@ -35,12 +35,13 @@ fst_status measure_work_begin(measure_work *work, fst_track *track, fst_error *e
 {
     *work = (measure_work){.track = track, .stretch = {1.0, 0.0, 1.0}, .gain = 1.0};
     work->row = malloc((track->rows + 1) * sizeof *work->row);
-    work->t = malloc(7 * (track->rows + 1) * sizeof *work->t);
+    work->t = malloc(9 * (track->rows + 1) * sizeof *work->t);
     if (!work->row || !work->t) {
         measure_work_free(work);
         return fst_fail(error, FST_NO_MEMORY, "", "no memory for a track of %zu frames", track->rows);
     }
-    double **const parts[] = {&work->x, &work->y, &work->r, &work->alpha, &work->r_off, &work->a_off};
+    double **const parts[] = {&work->x,     &work->y,     &work->r,      &work->alpha,
+                              &work->r_off, &work->a_off, &work->scratch};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i)
         *parts[i] = work->t + (i + 1) * (track->rows + 1);
     work->fps = isfinite(track->fps) ? track->fps : 1.0;
@@ -275,15 +276,22 @@ static double move(measure_work *work)
     return fmax(fabs(dx) + fabs(dy), r0 * size) / r0;
 }
 
+/* Where the harmonic k stands among the columns of the model of r. */
+static int place_of_line(const measure_work *work, int k)
+{
+    int at = 1;
+    for (int j = 1; j < k; ++j)
+        at += work->skipped[j - 1] ? 0 : 2;
+    return at;
+}
+
 /* The amplitude of k f0 in r, 0 where the model lacks it, and the least one that would stand out of the noise. */
 static double line_of(const measure_work *work, int k, double *least)
 {
     *least = INFINITY;
     if (work->skipped[k - 1])
         return 0.0;
-    int at = 1;
-    for (int j = 1; j < k; ++j)
-        at += work->skipped[j - 1] ? 0 : 2;
+    const int at = place_of_line(work, k);
     const double square = fst_dot(work->r_off, work->r_off, (int)work->count);
     const double variance = square / (double)(work->count - (size_t)work->radial.columns);
     const double *c = work->radial.coefficient + at;
@@ -303,6 +311,28 @@ int measure_may_hide_line(const measure_work *work, int k, int behind)
     const double seen = line_of(work, behind, &least);
     (void)line_of(work, k, &hidden);
     return hidden > HIDDEN * seen;
+}
+
+/* The amplitude in the rows from first to last, by correlation: the model's line with what the model leaves there. */
+static double line_between(const measure_work *work, int k, size_t first, size_t last)
+{
+    double row[MEASURE_MOST_COLUMNS], sums[2] = {0, 0};
+    const int at = place_of_line(work, k);
+    const double *c = work->radial.coefficient + at;
+    for (size_t i = first; i < last; ++i) {
+        (void)measure_radial_row(work, i, row);
+        const double value = work->r_off[i] + c[0] * row[at] + c[1] * row[at + 1];
+        sums[0] += row[at] * value;
+        sums[1] += row[at + 1] * value;
+    }
+    return 2.0 * sqrt(sums[0] * sums[0] + sums[1] * sums[1]) / (double)(last - first);
+}
+
+int measure_line_dies(const measure_work *work, int k)
+{
+    const size_t third = work->count / 3;
+    return !work->skipped[k - 1] && third > 0 &&
+           line_between(work, k, work->count - third, work->count) < 0.5 * line_between(work, k, 0, third);
 }
 
 /* ---------------------------------------------------------------- the motion */
@@ -371,14 +401,29 @@ fst_status measure_refine_motion(measure_work *work, fst_error *error)
     return FST_OK;
 }
 
+/* Whether the radii are those of a circle but for rounding errors, in which no line means anything. */
+static int is_exact_circle(const measure_work *work)
+{
+    double off = 0.0, all = 0.0;
+    for (size_t i = 0; i < work->count; ++i) {
+        off += work->r_off[i] * work->r_off[i];
+        all += work->r[i] * work->r[i];
+    }
+    return off < 1e-26 * all;
+}
+
 /* Look for the line of the festoons in what a model without them leaves of r. */
 static fst_status find_peak(measure_work *work, fst_error *error)
 {
+    work->peak = 0.0;
+    if (is_exact_circle(work))
+        return FST_OK;
     const measure_series radii = {work->t, work->r_off, NULL, work->count, work->fps};
     measure_line line;
     const fst_status status = measure_strongest_line(
         &radii, fmax(0.6 * fabs(work->bead), 2.0 / measure_duration(work)), &line, error);
-    work->peak = status == FST_OK && line.power > line.limit ? line.frequency : 0.0;
+    if (status == FST_OK && line.power > line.limit)
+        work->peak = line.frequency;
     return status;
 }
 

@@ -104,13 +104,14 @@ static void warn_of_exposure(const measure_work *work, const measure_drive *driv
 /* ---------------------------------------------------------------- the whole */
 
 /* Whether every second festoon is alike cannot be told. */
-static void forget_festoons(fst_measurement *measured)
+static void forget_festoons(fst_measurement *measured, int fades)
 {
-    measure_warn(
-        measured,
-        "the noise of the places hides whether every second festoon differs: there are %.4g festoons, or "
-        "%.4g if they are all alike (S2); film it for longer, or closer",
-        0.5 * measured->festoons, measured->festoons);
+    measure_warn(measured, "%s: there are %.4g festoons, or %.4g if they are all alike (S2); %s",
+                 fades ? "every second festoon differs ever less in this film"
+                       : "the noise of the places hides whether every second festoon differs",
+                 0.5 * measured->festoons, measured->festoons,
+                 fades ? "film the motion when it has settled, and for longer"
+                       : "film it for longer, or closer");
     measured->festoons = measured->festoons_error = NAN;
 }
 
@@ -159,7 +160,7 @@ static fst_status measure(measure_work *work, const fst_measure_options *options
     if (status == FST_OK)
         status = measure_find_errors(work, &drive, measured, error);
     if (status == FST_OK && drive.unsure)
-        forget_festoons(measured);
+        forget_festoons(measured, drive.fades);
     /* What blurred the oscillation away blurred the mean radius too, by an unknown part. */
     if (status == FST_OK && options->exposure > 0 && drive.radial > 0 &&
         measure_kept(drive.radial, options->exposure) < MEASURE_LEAST_KEPT)

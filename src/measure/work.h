@@ -26,6 +26,7 @@ typedef struct measure_work {
     double *x, *y;         /* in the picture */
     double *r, *alpha;     /* on the plate, about the centre; alpha unwrapped */
     double *r_off, *a_off; /* residuals of the models of r and alpha */
+    double *scratch;       /* room for two numbers a row */
     double fps;            /* frames in a unit of t */
     double centre[2], stretch[3];
     double bead;   /* turns of the bead in a unit of t, counter-clockwise positive, as filmed */
@@ -64,6 +65,8 @@ void measure_place_row(measure_work *work, size_t at, size_t i);
 int measure_has_line(const measure_work *work, int k);
 /* Whether the noise could hide an oscillation with k f0 that is not small beside that with `behind` f0. */
 int measure_may_hide_line(const measure_work *work, int k, int behind);
+/* Whether k f0 fades away in the film: less than half is left in its last third of what the first has. */
+int measure_line_dies(const measure_work *work, int k);
 /* The frequency at which a film of so many frames a second shows another one. */
 double measure_folded(double frequency, double fps);
 double measure_duration(const measure_work *work);
@@ -74,10 +77,11 @@ int measure_angular_row(const measure_work *work, size_t i, double *row);
 /* What the rates tell of the drive. */
 typedef struct measure_drive {
     fst_motion motion;
-    int symmetry;                       /* a, by which f_drive follows */
-    int unsure;                         /* a is 2, but the noise may hide that it is 1 */
-    int relative;                       /* 1: the bead goes round with the magnet, -1: against it */
-    double radial;                      /* f_r in Hz, as it is and not as the film shows it; NAN: unknown */
+    int symmetry;  /* a, by which f_drive follows */
+    int unsure;    /* a is 2, but the noise may hide that it is 1, or a was 1 and may become 2 */
+    int fades;     /* the second of these */
+    int relative;  /* 1: the bead goes round with the magnet, -1: against it */
+    double radial; /* f_r in Hz, as it is and not as the film shows it; NAN: unknown */
     double drive_apart, festoons_apart; /* how far another reading of a folded line puts them; 0: none does */
     int clock_follows;                  /* the file has no clock, and the drive gave it one */
 } measure_drive;

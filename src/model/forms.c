@@ -105,9 +105,19 @@ static int is_overridden(const fst_params *params, int form)
     return other_form(form) < form && form != B0 && !isnan(value_of(params, other_form(form)));
 }
 
+/* Whether a key tells the place of the start: 1 by distance and angle, 2 by a vector. */
+static int start_place(const char *key)
+{
+    if (strcmp(key, "start.r") == 0 || strcmp(key, "start.phi") == 0)
+        return 1;
+    return strcmp(key, "start.position[0]") == 0 || strcmp(key, "start.position[1]") == 0 ? 2 : 0;
+}
+
 int fst_form_overridden(const fst_params *params, const char *key)
 {
     const int form = form_of(key);
+    if (start_place(key) == 1)
+        return !isnan(params->start_position[0]) || !isnan(params->start_position[1]);
     return form < FORMS && is_overridden(params, form);
 }
 
@@ -123,8 +133,18 @@ static int tell_the_same(const fst_params *params, int one, int two)
     return second == B0 ? !real && moment_given(params) : real && (second == MOMENT || second == REMANENCE);
 }
 
-int fst_params_clash(const fst_params *params, const char *one, const char *two)
+/* The key behind "beads[N].", where both are keys of that bead; else as it is. */
+static const char *without_bead(const char *key, const char *other)
 {
+    const char *end = strncmp(key, "beads[", strlen("beads[")) == 0 ? strchr(key, ']') : NULL;
+    return end && strncmp(key, other, (size_t)(end - key) + 1) == 0 ? end + 2 : key;
+}
+
+int fst_params_clash(const fst_params *params, const char *key, const char *other)
+{
+    const char *one = without_bead(key, other), *two = without_bead(other, key);
+    if (start_place(one) + start_place(two) == 3)
+        return 1;
     const int first = form_of(one), second = form_of(two);
     return first < FORMS && second < FORMS && tell_the_same(params, first, second);
 }
@@ -171,9 +191,15 @@ void fst_form_will_be_set(fst_params *params, const char *key)
 
 void fst_form_was_set(fst_params *params, const char *key)
 {
-    const int form = form_of(key);
+    const int form = form_of(key), place = start_place(key);
     if (form < FORMS)
         take_back_others(params, form);
+    if (place == 1)
+        params->start_position[0] = params->start_position[1] = NAN;
+    if (place == 2) {
+        params->start_r = fst_param_at(fst_param_find("start.r"))->initial;
+        params->start_phi = fst_param_at(fst_param_find("start.phi"))->initial;
+    }
     note(params);
 }
 

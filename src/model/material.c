@@ -4,6 +4,8 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "model/bead_list.h"
+#include "model/bead_rows.h"
 #include "model/forms.h"
 #include "model/params.h"
 
@@ -67,6 +69,9 @@ enum { WAITS, REFUSED, REFUSED_IF_DRY };
 
 /* What a law or a source of your own (own.def) reads is not known here. */
 #define NOT_DRY "friction.law", "viscous|none|rolling", "coulomb", WAITS
+#define NO_PLATE "plate.shape", "none", "flat or bowl", REFUSED
+#define NO_FLUID "medium.density", "", "one", REFUSED
+#define NO_WAVE "drive.waveform", "steady|oscillating|chirp|table|carried", "wave", REFUSED
 #define NO_LINES "magnet.shape", "parts|grid", "lines", REFUSED
 
 static const struct effect {
@@ -95,6 +100,25 @@ static const struct effect {
     {"bead.a", "bead.material", "hard", "paramagnetic or mixed", REFUSED},
     {"bead.b", "bead.material", "hard|paramagnetic", "mixed", REFUSED},
     {"model.kappa", "bead.material", "paramagnetic", "hard or mixed", WAITS},
+    {"contact.pair_mu", NOT_DRY},
+    {"run.step", "run.method", "exact", "stepping", REFUSED},
+    {"plate.bowl_radius", "plate.shape", "flat|none", "bowl", REFUSED},
+    {"drive.amplitude", "drive.waveform", "steady|chirp|table|carried|wave", "oscillating", REFUSED},
+    {"drive.chirp", "drive.waveform", "steady|oscillating|table|carried|wave", "chirp", REFUSED},
+    {"drive.table", "drive.waveform", "steady|oscillating|chirp|carried|wave", "table", REFUSED},
+    {"wave.length", NO_WAVE},
+    {"wave.amplitude", NO_WAVE},
+    {"wave.ratio", NO_WAVE},
+    {"plate.tilt", "plate.shape", "none", "flat or bowl", REFUSED},
+    {"friction.mu", NO_PLATE},
+    {"friction.mu_static", NO_PLATE},
+    {"friction.rolling_resistance", NO_PLATE},
+    {"impact.restitution", NO_PLATE},
+    {"contact.patch", NO_PLATE},
+    {"magnet.depth", "plate.shape", "none", "flat or bowl", WAITS},
+    {"model.h", "plate.shape", "none", "flat or bowl", WAITS},
+    {"medium.drag_coefficient", NO_FLUID},
+    {"medium.added_mass", NO_FLUID},
 };
 enum { EFFECTS = sizeof effects / sizeof *effects };
 
@@ -105,9 +129,26 @@ static int strikes(const struct effect *row, const fst_params *params, char valu
     return strcmp(value, row->without) == 0 || fst_name_place(value, row->without) >= 0;
 }
 
+/* Keys that say something of a list of beads alone. */
+static const char *const of_beads[] = {"contact.pair_rate", "contact.pair_mu", "model.chi", "run.method"};
+enum { OF_BEADS = sizeof of_beads / sizeof *of_beads };
+
+static int needs_beads(const char *key)
+{
+    int i = 0;
+    while (i < OF_BEADS && strcmp(of_beads[i], key) != 0)
+        ++i;
+    return i < OF_BEADS;
+}
+
 const char *fst_param_missing_choice(const fst_params *params, const char *key, const char **of)
 {
     char value[FST_PARAM_TEXT_SIZE];
+    if (params->bead_count && strcmp(key, "impact.restitution") == 0)
+        return NULL;
+    *of = "bead";
+    if (!params->bead_count && needs_beads(key))
+        return "several, in a list of beads";
     for (int i = 0; i < EFFECTS; ++i) {
         const size_t length = strlen(effects[i].key);
         *of = effects[i].of;
@@ -130,11 +171,10 @@ static int is_given(const fst_params *params, const char *key)
     return fst_params_get(params, index, value, sizeof value) && strcmp(value, initial) != 0;
 }
 
-fst_status fst_params_check_effects(const fst_params *params, fst_error *error)
+/* Of settled parameters of one bead. */
+static fst_status check_one(const fst_params *params, fst_error *error)
 {
-    fst_params room;
     char value[FST_PARAM_TEXT_SIZE];
-    params = fst_params_settled(params, &room);
     const int dry = params->friction_law == FST_FRICTION_COULOMB;
     for (const struct effect *row = effects; row < effects + EFFECTS; ++row)
         if ((row->when == REFUSED || (row->when == REFUSED_IF_DRY && dry)) && is_given(params, row->key) &&
@@ -144,4 +184,58 @@ fst_status fst_params_check_effects(const fst_params *params, fst_error *error)
                             value[0] ? "with" : "without", row->of, value[0] ? " " : "", value, row->choose,
                             row->key);
     return FST_OK;
+}
+
+static fst_status check_without_beads(const fst_params *params, fst_error *error)
+{
+    for (int i = 0; i < OF_BEADS; ++i)
+        if (is_given(params, of_beads[i]))
+            return fst_fail(error, FST_BAD_INPUT, of_beads[i],
+                            "%s has no effect on one bead: list several in beads, or leave %s out", of_beads[i],
+                            of_beads[i]);
+    return FST_OK;
+}
+
+/* Whether the bead itself gives the key of the setup. */
+static int bead_gives(const fst_params *params, int bead, const char *key)
+{
+    fst_params said = fst_default_params();
+    char own[64], value[FST_PARAM_TEXT_SIZE];
+    said.bead_count = 1;
+    said.beads[0] = *fst_bead_own(params, bead);
+    (void)snprintf(own, sizeof own, "beads[0].%.50s", key);
+    const int row = fst_param_find(own);
+    return row >= 0 && fst_params_get(&said, row, value, sizeof value) > 0;
+}
+
+/* A key may be without effect on some beads, unless these give it themselves. */
+static fst_status check_beads(const fst_params *params, fst_error *error)
+{
+    fst_error why;
+    int struck = 0;
+    if (params->bead_count > FST_BEADS_MOST && params->run_method == FST_BEADS_EXACT)
+        return fst_fail(error, FST_BAD_INPUT, "run.method",
+                        "run.method: exact takes at most %d beads, and the scene lists %d: choose stepping",
+                        FST_BEADS_MOST, params->bead_count);
+    for (int bead = 0; bead < params->bead_count; ++bead) {
+        fst_params alone;
+        fst_status status = fst_params_of_bead(params, bead, &alone, error);
+        if (status != FST_OK)
+            return status;
+        if (check_one(&alone, &why) == FST_OK)
+            continue;
+        if (++struck == params->bead_count || bead_gives(params, bead, why.where))
+            return fst_fail(error, FST_BAD_INPUT, why.where, "bead %d: %s", bead, why.sentence);
+    }
+    return FST_OK;
+}
+
+fst_status fst_params_check_effects(const fst_params *params, fst_error *error)
+{
+    fst_params room;
+    params = fst_params_settled(params, &room);
+    if (params->bead_count)
+        return check_beads(params, error);
+    const fst_status status = check_one(params, error);
+    return status == FST_OK ? check_without_beads(params, error) : status;
 }

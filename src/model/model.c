@@ -8,6 +8,7 @@
 #include "base/elementary.h"
 #include "base/error.h"
 #include "model/params.h"
+#include "model/worlds.h"
 
 #include "model/tangent.inl"
 
@@ -113,6 +114,17 @@ static fst_status use_map(const fst_params *p, fst_groups *g, fst_error *error)
     return FST_OK;
 }
 
+/* The same without the parts that stand still: surroundings.c has those. */
+static fst_params turning_parts(const fst_params *params)
+{
+    fst_params turning = *params;
+    turning.magnet_part_count = 0;
+    for (int i = 0; i < params->magnet_part_count; ++i)
+        if (params->magnet_parts[i].motion == FST_PART_TURNING)
+            turning.magnet_parts[turning.magnet_part_count++] = params->magnet_parts[i];
+    return turning;
+}
+
 static fst_status make_model(const fst_params *params, double height, fst_model *made, fst_error *error)
 {
     fst_groups g;
@@ -140,7 +152,8 @@ static fst_status make_model(const fst_params *params, double height, fst_model 
     if (status != FST_OK)
         return status;
     made->groups = g;
-    made->world = fst_make_world_double(params, &g);
+    const fst_params turning = turning_parts(params);
+    made->world = fst_make_world_double(&turning, &g);
     made->params = *params;
     made->has_s2 = field_has_s2(params, &made->world, &g);
     made->map = g.shape == FST_MAGNET_GRID ? fst_field_map_share(params->magnet_map) : NULL;
@@ -156,7 +169,9 @@ fst_status fst_model_fill(const fst_params *params, double height, fst_model *mo
 
 fst_status fst_model_new(const fst_params *params, fst_model **model, fst_error *error)
 {
-    return fst_field_model_new(params, NAN, model, error);
+    *model = NULL;
+    const fst_status status = fst_check_no_world(params, error);
+    return status == FST_OK ? fst_field_model_new(params, NAN, model, error) : status;
 }
 
 fst_status fst_field_model_new(const fst_params *params, double height, fst_model **model, fst_error *error)
@@ -300,44 +315,4 @@ void fst_apply_s2(const double state[FST_STATE_SIZE], double image[FST_STATE_SIZ
     static const double sign[FST_STATE_SIZE] = {-1, -1, -1, -1, 1, 1, -1, -1, -1, 1};
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         image[i] = sign[i] * state[i];
-}
-
-fst_status fst_start_state(const fst_params *params, const fst_model *model, double state[FST_STATE_SIZE],
-                           fst_error *error)
-{
-    const fst_groups *g = &model->groups;
-    double sine, cosine;
-    fst_sin_cos_degrees(params->start_phi, &sine, &cosine);
-    const double r = params->start_r;
-    memset(state, 0, FST_STATE_SIZE * sizeof *state);
-    state[FST_X] = r * cosine;
-    state[FST_Y] = r * sine;
-    if (r >= g->plate_radius)
-        return fst_fail(error, FST_BAD_INPUT, "start.r",
-                        "start.r = %g lies beyond the plate's edge at %g: choose a smaller start.r", r,
-                        g->plate_radius);
-    fst_gradient_double gradient;
-    double b[3];
-    fst_field_double(&model->world, state[FST_X], state[FST_Y], model->world.height, b, &gradient);
-    const double norm = sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
-    if (!(norm > 1e-150))
-        return fst_fail(error, FST_BAD_INPUT, "start.r",
-                        "the magnet's field vanishes at the start, so n = B/|B| does not exist there: move "
-                        "start.r or start.phi");
-    for (int i = 0; i < 3; ++i)
-        state[FST_NX + i] = b[i] / norm;
-    if (params->start_spin == FST_SPIN_REST)
-        return FST_OK;
-    const double gap = r - g->eps;
-    if (!(fabs(gap) > 1e-9) || r == 0.0)
-        return fst_fail(error, FST_BAD_INPUT, "start.r",
-                        "a free-rolling start does not exist at start.r = %g with eps = %g: choose start.r > "
-                        "eps, or start.spin = rest",
-                        r, g->eps);
-    const double rate = g->omega * r / gap; /* free rolling: alpha' = -eps omega/(r - eps), W = rate e_r */
-    state[FST_VX] = g->eps * rate * sine;
-    state[FST_VY] = -g->eps * rate * cosine;
-    state[FST_WX] = rate * cosine;
-    state[FST_WY] = rate * sine;
-    return FST_OK;
 }

@@ -4,6 +4,9 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "model/bead_rows.h"
+#include "model/coil_rows.h"
+#include "model/list_rows.h"
 #include "model/params.h"
 #include "model/part_rows.h"
 
@@ -16,13 +19,19 @@ static const fst_param_info rows[] = {
     FST_PARAM_ROW(#group "." #name, CHOICE, NUMBER, names, initial, 0, 0, doc, group##_##name),
 #define FST_TEXT(group, name, room, doc)                                                                       \
     FST_PARAM_ROW(#group "." #name, TEXT, NUMBER, NULL, NAN, 0, (room)-1, doc, group##_##name),
+#define FST_REALS2(...)
+#define FST_REALS3(...)
 #include <festoon/params.def>
+#undef FST_REALS2
+#undef FST_REALS3
 #undef FST_REAL
 #undef FST_INT
 #undef FST_CHOICE
 #undef FST_TEXT
 };
 enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
+enum { LIST_ROW_0 = ROW_COUNT + FST_PART_ROWS, COIL_ROW_0 = LIST_ROW_0 + FST_LIST_ROWS };
+enum { BEAD_ROW_0 = COIL_ROW_0 + FST_COIL_ROWS, ALL_ROWS = BEAD_ROW_0 + FST_BEAD_ROWS };
 
 int fst_param_count(void)
 {
@@ -31,25 +40,44 @@ int fst_param_count(void)
 
 const fst_param_info *fst_param_at(int index)
 {
-    if (index < 0 || index >= ROW_COUNT + FST_PART_ROWS)
+    if (index < 0 || index >= ALL_ROWS)
         return NULL;
+    if (index >= BEAD_ROW_0)
+        return fst_bead_row(index - BEAD_ROW_0);
+    if (index >= COIL_ROW_0)
+        return fst_coil_row(index - COIL_ROW_0);
+    if (index >= LIST_ROW_0)
+        return fst_list_row(index - LIST_ROW_0);
     return index < ROW_COUNT ? &rows[index] : fst_part_row(index - ROW_COUNT);
 }
 
 int fst_params_row_count(const fst_params *params)
 {
-    return ROW_COUNT + FST_PART_FIELDS * params->magnet_part_count;
+    const int keyed = params->bead_count <= FST_BEADS_MOST; /* beads of a longer list have no keys */
+    return BEAD_ROW_0 + (keyed ? FST_BEAD_FIELDS * params->bead_count : 0);
 }
 
 int fst_param_part(int index)
 {
-    return index < ROW_COUNT ? -1 : (index - ROW_COUNT) / FST_PART_FIELDS;
+    return index < ROW_COUNT || index >= LIST_ROW_0 ? -1 : (index - ROW_COUNT) / FST_PART_FIELDS;
+}
+
+int fst_param_coil(int index)
+{
+    return index < COIL_ROW_0 || index >= BEAD_ROW_0 ? -1 : (index - COIL_ROW_0) / FST_COIL_FIELDS;
+}
+
+int fst_param_bead(int index)
+{
+    return index < BEAD_ROW_0 ? -1 : (index - BEAD_ROW_0) / FST_BEAD_FIELDS;
 }
 
 int fst_param_find(const char *key)
 {
-    for (int i = 0; i < ROW_COUNT + FST_PART_ROWS; i++)
-        if (strcmp(fst_param_at(i)->key, key) == 0)
+    char whole[64];
+    fst_bead_whole_key(key, whole, sizeof whole);
+    for (int i = 0; i < ALL_ROWS; i++)
+        if (strcmp(fst_param_at(i)->key, whole) == 0)
             return i;
     return -1;
 }
@@ -68,12 +96,8 @@ static const struct {
     {"run.controller", "",
      "run.controller is gone: runs follow the rule that was called plain; leave the key out, and lower "
      "run.rtol where damped was meant to make a run more exact"},
-    {"run.method", "",
-     "run.method is gone, and its choice splitting with it: every run locates the events of dry friction; "
-     "leave the key out"},
-    {"run.step", "",
-     "run.step is gone: it was the step of the method splitting; leave the key out, and say by run.rtol how "
-     "exact a run is to be"},
+    {"run.method", "splitting",
+     "run.method: splitting is gone: every run locates the events of dry friction; leave the key out"},
 };
 
 const char *fst_param_removed(const char *key, const char *choice)
@@ -115,6 +139,10 @@ fst_status fst_param_unknown_key(const char *key, fst_error *error)
     char suggestion[FST_SUGGESTION_SIZE];
     if (strncmp(key, "magnet.parts", strlen("magnet.parts")) == 0)
         return fst_part_unknown_key(key, error);
+    if (strncmp(key, "beads", strlen("beads")) == 0)
+        return fst_bead_unknown_key(key, error);
+    if (strncmp(key, "coils", strlen("coils")) == 0)
+        return fst_coil_unknown_key(key, error);
     const char *removed = fst_param_removed(key, "");
     if (removed)
         return fst_fail(error, FST_BAD_INPUT, key, "%s", removed);

@@ -6,12 +6,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "base/listed.h"
 #include "base/number.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "model/bead_list.h"
+#include "model/bead_rows.h"
 #include "model/forms.h"
+#include "model/coil_rows.h"
+#include "model/list_rows.h"
 #include "model/part_rows.h"
 
 fst_params fst_default_params(void)
@@ -22,12 +27,20 @@ fst_params fst_default_params(void)
 #define FST_INT(group, name, initial, least, greatest, doc) .group##_##name = (initial),
 #define FST_CHOICE(group, name, names, initial, doc) .group##_##name = (initial),
 #define FST_TEXT(group, name, room, doc) .group##_##name = "",
+#define FST_REALS2(...)
+#define FST_REALS3(...)
 #include <festoon/params.def>
+#undef FST_REALS2
+#undef FST_REALS3
 #undef FST_REAL
 #undef FST_INT
 #undef FST_CHOICE
 #undef FST_TEXT
     };
+    for (int i = 0; i < FST_LIST_ROWS; ++i)
+        fst_param_put(&params, fst_list_row(i), fst_list_row(i)->initial);
+    for (int i = 0; i < FST_COIL_ROWS; ++i)
+        fst_param_put(&params, fst_coil_row(i), fst_coil_row(i)->initial);
     fst_form_was_unset(&params, ""); /* every form is noted with its default */
     return params;
 }
@@ -115,17 +128,24 @@ fst_status fst_params_set(fst_params *params, const char *key, const char *text,
     if (index < 0)
         return fst_param_unknown_key(key, error);
     const fst_param_info *row = fst_param_at(index);
-    status = part_row < 0 ? FST_OK : fst_part_may_set(&made, part_row, error);
+    const int of_part = fst_param_part(index) >= 0, bead = fst_param_bead(index), coil = fst_param_coil(index);
+    status = of_part ? fst_part_may_set(&made, part_row, error) : fst_bead_may_set(&made, bead, error);
+    if (status == FST_OK)
+        status = fst_coil_may_set(&made, coil, error);
     if (status == FST_OK)
         status = row->kind == FST_KIND_CHOICE ? set_choice(&made, row, text, error)
                  : row->kind == FST_KIND_TEXT ? set_text(&made, row, text, error)
                                               : set_number(&made, row, text, error);
     if (status != FST_OK)
         return status;
-    if (part_row < 0)
-        fst_form_was_set(&made, key);
-    else
+    if (of_part)
         fst_part_was_set(&made, part_row);
+    else if (bead >= 0)
+        fst_bead_was_set(&made, bead, row);
+    else
+        fst_form_was_set(&made, key);
+    if (coil == made.coil_count)
+        ++made.coil_count;
     *params = made;
     return FST_OK;
 }
@@ -161,6 +181,8 @@ int fst_params_get(const fst_params *params, int index, char *text, size_t size)
     if (!row || fst_form_overridden(params, row->key) || index >= fst_params_row_count(params))
         return 0;
     const int part = fst_param_part(index);
+    if (part >= params->magnet_part_count || fst_param_coil(index) >= params->coil_count)
+        return 0;
     if (part >= 0 && !fst_part_has(params->magnet_parts[part].kind, index - fst_param_count()))
         return 0;
     if (row->kind == FST_KIND_TEXT)
@@ -175,29 +197,16 @@ int fst_params_get(const fst_params *params, int index, char *text, size_t size)
 
 /* ---------------------------------------------------------------- checking a whole struct */
 
-/* Whether a field that a program filled in by hand is what fst_params_set() would have let pass. */
-static fst_status validate_row(const fst_params *params, const fst_param_info *row, fst_error *error)
-{
-    size_t length;
-    if (row->kind == FST_KIND_TEXT) {
-        if (memchr((const char *)params + row->offset, '\0', (size_t)row->greatest + 1))
-            return FST_OK;
-        return fst_fail(error, FST_BAD_INPUT, row->key, "%s: this text has no end", row->key);
-    }
-    const double value = fst_param_value(params, row);
-    if (row->kind != FST_KIND_CHOICE)
-        return isnan(value) && isnan(row->initial) ? FST_OK
-                                                   : fst_param_check_range(row, value, NULL, "", error);
-    if (*fst_name_at(row->names, (int)value, &length))
-        return FST_OK;
-    return fst_fail(error, FST_BAD_INPUT, row->key, "%s: no choice has the number %g (choices: %s)", row->key,
-                    value, row->names);
-}
-
 /* The parts of a real magnet, and what gives the strength of its pull. */
 static fst_status validate_magnet(const fst_params *params, fst_error *error)
 {
-    const fst_status status = fst_parts_validate(params, error);
+    fst_status status = fst_parts_validate(params, error);
+    if (status == FST_OK)
+        status = fst_lists_validate(params, error);
+    if (status == FST_OK)
+        status = fst_beads_validate(params, error);
+    if (status == FST_OK)
+        status = fst_coils_validate(params, error);
     if (status != FST_OK)
         return status;
     if (!fst_magnet_in_tesla(params) && !isnan(params->bead_remanence) && isnan(params->magnet_b0))
@@ -222,15 +231,55 @@ static fst_status validate_magnet(const fst_params *params, fst_error *error)
 double fst_run_discard(const fst_params *params)
 {
     static const double unless_told = 200.0;
-    const int short_run = params->run_discard == unless_told && params->run_periods <= unless_told;
-    return short_run ? 0.5 * params->run_periods : params->run_discard;
+    const double periods = fst_run_periods(params);
+    const int whole = periods > unless_told && isnan(params->run_duration);
+    return params->run_discard == unless_told && !whole ? 0.5 * periods : params->run_discard;
+}
+
+double fst_run_periods(const fst_params *params)
+{
+    if (isnan(params->run_duration))
+        return params->run_periods;
+    const double omega = params->drive_omega;
+    return params->run_duration *
+           (isnan(omega) ? params->drive_frequency : omega * params->friction_gamma / FST_TWO_PI);
+}
+
+/* What contradicts itself in a world of the bead that is not a flat plate in air. */
+static fst_status validate_world(const fst_params *params, fst_error *error)
+{
+    const double radius =
+        isnan(params->model_eps) ? params->bead_radius : params->model_eps * params->magnet_half_length;
+    const int bowl = params->plate_shape == FST_PLATE_BOWL;
+    if (bowl && !(params->plate_bowl_radius > radius))
+        return fst_fail(
+            error, FST_BAD_INPUT, "plate.bowl_radius",
+            isnan(params->plate_bowl_radius)
+                ? "plate.shape: bowl needs the radius of the bowl: give plate.bowl_radius"
+                : "plate.bowl_radius = %g m: the bowl must be larger than the bead, whose radius is %g m",
+            params->plate_bowl_radius, radius);
+    if (params->plate_gravity < 0 && params->plate_shape != FST_PLATE_NONE)
+        return fst_fail(
+            error, FST_BAD_INPUT, "plate.gravity",
+            "plate.gravity = %g m/s^2 pulls the bead off its plate: only plate.shape none has a bead "
+            "that hangs below the magnet",
+            params->plate_gravity);
+    const int rates = !isnan(params->medium_drag_rate) || !isnan(params->medium_spin_drag_rate);
+    if (rates && !isnan(params->medium_viscosity))
+        return fst_fail(error, FST_BAD_INPUT, "medium.viscosity",
+                        "medium.viscosity and medium.%s both say how the medium drags: give one of them",
+                        isnan(params->medium_drag_rate) ? "spin_drag_rate" : "drag_rate");
+    if (!isnan(params->medium_quadratic_drag) && params->medium_drag_coefficient > 0)
+        return fst_fail(error, FST_BAD_INPUT, "medium.drag_coefficient",
+                        "medium.drag_coefficient and medium.quadratic_drag say the same: give one of them");
+    return FST_OK;
 }
 
 /* Of settled parameters. */
 static fst_status validate(const fst_params *params, fst_error *error)
 {
     for (int i = 0; i < fst_param_count(); i++) {
-        fst_status status = validate_row(params, fst_param_at(i), error);
+        fst_status status = fst_param_validate(params, fst_param_at(i), error);
         if (status != FST_OK)
             return status;
     }
@@ -247,12 +296,13 @@ static fst_status validate(const fst_params *params, fst_error *error)
         return fst_fail(error, FST_BAD_INPUT, "contact.patch",
                         "contact.patch needs the size of the disc: give contact.radius, or contact.modulus, "
                         "from which the radius follows with the load");
-    if (!(fst_run_discard(params) < params->run_periods))
+    const char *length = isnan(params->run_duration) ? "run.periods" : "run.duration";
+    if (!(fst_run_discard(params) < fst_run_periods(params)))
         return fst_fail(error, FST_BAD_INPUT, "run.discard",
-                        "run.discard = %g leaves nothing of run.periods = %g: make run.periods larger or "
-                        "run.discard smaller",
-                        params->run_discard, params->run_periods);
-    return FST_OK;
+                        "run.discard = %g leaves nothing of %s = %g: make %s larger or run.discard smaller",
+                        params->run_discard, length,
+                        isnan(params->run_duration) ? params->run_periods : params->run_duration, length);
+    return validate_world(params, error);
 }
 
 fst_status fst_params_check_part(const fst_params *params, int part, fst_error *error)

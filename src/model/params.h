@@ -37,6 +37,9 @@ void fst_param_put(fst_params *params, const fst_param_info *row, double value);
 fst_status fst_param_check_range(const fst_param_info *row, double value, const char *shown, const char *remark,
                                  fst_error *error);
 
+/* Whether a field that a program filled in by hand is what fst_params_set() would have let pass. */
+fst_status fst_param_validate(const fst_params *params, const fst_param_info *row, fst_error *error);
+
 /* The moment of the scene in A m^2, if it does not follow from kappa; NAN: not given. */
 double fst_given_moment(const fst_params *params);
 

@@ -38,7 +38,10 @@
         MOMENT(i, 1, "y"), MOMENT(i, 2, "z"),                                                                  \
         NUMBER(i, rotation[0], ANGLE, 0.0, -1e6, 1e6,                                                          \
                "Angle by which the part is turned about an axis through its centre."),                         \
-        TURN(i, 1, "x"), TURN(i, 2, "y"), TURN(i, 3, "z")
+        TURN(i, 1, "x"), TURN(i, 2, "y"), TURN(i, 3, "z"),                                                     \
+        FST_PARAM_ROW("magnet.parts[" #i "].motion", CHOICE, NUMBER, FST_WORDS(FST_PART_MOTIONS),              \
+                      FST_PART_TURNING, 0, 0, "Whether the part turns with the magnet: turning or fixed.",     \
+                      magnet_parts[i].motion)
 
 static const fst_param_info rows[] = {PART(0),  PART(1),  PART(2),  PART(3), PART(4),  PART(5),
                                       PART(6),  PART(7),  PART(8),  PART(9), PART(10), PART(11),
@@ -52,7 +55,15 @@ const fst_param_info *fst_part_row(int row)
 
 /* ------------------------------------------------------------------ what a kind has */
 
-enum { KIND_FIELD, CENTRE_FIELD, SIZE_FIELD = 4, REMANENCE_FIELD = 7, MOMENT_FIELD = 10, TURN_FIELD = 13 };
+enum {
+    KIND_FIELD,
+    CENTRE_FIELD,
+    SIZE_FIELD = 4,
+    REMANENCE_FIELD = 7,
+    MOMENT_FIELD = 10,
+    TURN_FIELD = 13,
+    MOTION_FIELD = 17
+};
 
 #define KIND(NAME, name, doc, sizes, size_count) {name, sizes, size_count},
 static const struct {
@@ -162,7 +173,10 @@ static fst_status validate_numbers(const fst_params *params, int part, fst_error
     if (p->kind < 0 || p->kind >= FST_PART_KINDS)
         return fst_fail(error, FST_BAD_INPUT, rows[first].key, "%s: no kind has the number %d (kinds: %s)",
                         rows[first].key, p->kind, FST_WORDS(FST_PARTS));
-    for (int field = 1; field < FST_PART_FIELDS; ++field) {
+    if (p->motion < 0 || p->motion >= FST_PART_MOTION_COUNT)
+        return fst_fail(error, FST_BAD_INPUT, rows[first].key, "%s: no motion has the number %d (motions: %s)",
+                        rows[first + MOTION_FIELD].key, p->motion, FST_WORDS(FST_PART_MOTIONS));
+    for (int field = 1; field < MOTION_FIELD; ++field) {
         const fst_status status = validate_number(params, first + field, error);
         if (status != FST_OK)
             return status;
@@ -191,7 +205,7 @@ static fst_status lies_below(const fst_params *params, int part, fst_error *erro
 {
     const fst_magnet_part *p = &params->magnet_parts[part];
     const double top = fst_part_seen(p).high, plate = plate_height(params);
-    if (top < plate)
+    if (top < plate || params->plate_shape == FST_PLATE_NONE)
         return FST_OK;
     char where[48];
     (void)snprintf(where, sizeof where, "magnet.parts[%d]", part);
@@ -216,7 +230,10 @@ fst_status fst_parts_validate(const fst_params *params, fst_error *error)
     if (count < 0 || count > FST_PARTS_MAX)
         return fst_fail(error, FST_BAD_INPUT, "magnet.parts", "magnet_part_count is %d: it must be 0 to %d",
                         count, FST_PARTS_MAX);
-    if (params->magnet_shape == FST_MAGNET_PARTS && count == 0)
+    const double *even = params->field_uniform;
+    const int other_field = params->coil_count > 0 || params->drive_waveform == FST_WAVEFORM_WAVE ||
+                            !isnan(even[0]) || !isnan(even[1]) || !isnan(even[2]);
+    if (params->magnet_shape == FST_MAGNET_PARTS && count == 0 && !other_field)
         return fst_fail(error, FST_BAD_INPUT, "magnet.parts",
                         "magnet.shape is parts, but there are none: list them in magnet.parts, each with kind, "
                         "centre, size and remanence");

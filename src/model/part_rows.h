@@ -4,8 +4,8 @@
 
 #include <festoon/festoon.h>
 
-/* The keys of one part: its kind, and sixteen numbers. */
-enum { FST_PART_FIELDS = 17, FST_PART_ROWS = FST_PART_FIELDS * FST_PARTS_MAX };
+/* The keys of one part: its kind, sixteen numbers, and its motion. */
+enum { FST_PART_FIELDS = 18, FST_PART_ROWS = FST_PART_FIELDS * FST_PARTS_MAX };
 
 /* Row 0 to FST_PART_ROWS - 1, part after part. */
 const fst_param_info *fst_part_row(int row);

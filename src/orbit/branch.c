@@ -155,6 +155,9 @@ static fst_status check(const fst_branch_options *o, const fst_params *params, f
     if (o->cookie != FST_BRANCH_OPTIONS_COOKIE)
         return fst_fail(error, FST_BAD_INPUT, "fst_branch_follow",
                         "the options were not made by fst_default_branch_options()");
+    if (o->kind == FST_BRANCH_LEVITATING)
+        WRONG("kind", "places where a bead floats have a branch of their own, over one parameter of a world "
+                      "without a plate");
     if (!isfinite(o->from) || !isfinite(o->to) || o->from == o->to)
         WRONG("from", "a branch needs a range with two different ends, not %g to %g", o->from, o->to);
     if (!(o->tolerance >= 1e-14 && o->tolerance <= 1e-6))

@@ -15,7 +15,8 @@ static int search_at(const fst_tracer *t, double value, fst_node *start, fst_err
     fst_solution s;
     fixed.key = -1;
     fixed.params = fst_family_params(&t->family, value);
-    fixed.params.run_periods = fmin(fixed.params.run_periods, 200.0);
+    fixed.params.run_periods = fmin(fst_run_periods(&fixed.params), 200.0);
+    fixed.params.run_duration = NAN;
     fixed.params.run_discard = 0.0;
     fst_orbit_outcome outcome;
     if (fst_search_orbit(&fixed, &s, &outcome, why) != FST_OK)

@@ -17,6 +17,10 @@ typedef struct fst_lapack {
      * overwritten, b by x.  0, or non-zero where a is singular. */
     int (*solve)(int n, int columns, double *a, double *b);
 
+    /* The shortest x with the least |a x - b|, a n x n by rows; both are overwritten, b by x.  Singular values
+     * below `least` of the greatest count as zero; *rank: how many do not.  0 on success. */
+    int (*shortest)(int n, double *a, double *b, double least, int *rank);
+
     /* Eigenvalues of a (n x n by rows, overwritten); `vectors` (n x n by rows, or NULL) receives the right
      * eigenvectors as columns, a complex pair as real and imaginary part.  0 on success. */
     int (*eigen)(int n, double *a, double *re, double *im, double *vectors);

@@ -6,8 +6,8 @@
 #include <math.h>
 
 enum {
-    LARGEST = 64,       /* systems of this room have at most 38 unknowns */
-    WORK = LARGEST * 96 /* dgeev() asks for less: blocks of 32 or 64 columns */
+    LARGEST = 98,       /* eight beads have 88 directions, with a period and a parameter */
+    WORK = LARGEST * 96 /* dgeev() and dgelss() ask for less: blocks of 32 or 64 columns */
 };
 
 /* Rows become columns: `to` has `columns` rows.  0 where an element is no number. */
@@ -34,6 +34,22 @@ static int solve(int n, int columns, double *a, double *b)
     return (int)singular;
 }
 
+static int shortest(int n, double *a, double *b, double least, int *rank)
+{
+    double turned[LARGEST * LARGEST], singular[LARGEST], work[WORK], size;
+    lapack_int found = 0;
+    if (n > LARGEST || !turn(n, n, a, turned))
+        return -1;
+    lapack_int failed =
+        LAPACKE_dgelss_work(LAPACK_COL_MAJOR, n, n, 1, turned, n, b, n, singular, least, &found, &size, -1);
+    if (failed || size > WORK)
+        return -1;
+    failed = LAPACKE_dgelss_work(LAPACK_COL_MAJOR, n, n, 1, turned, n, b, n, singular, least, &found, work,
+                                 (lapack_int)size);
+    *rank = (int)found;
+    return (int)failed;
+}
+
 static int eigen(int n, double *a, double *re, double *im, double *vectors)
 {
     double turned[LARGEST * LARGEST], found[LARGEST * LARGEST], work[WORK], size;
@@ -55,5 +71,6 @@ FST_API extern const fst_lapack fst_lapack_module;
 const fst_lapack fst_lapack_module = {
     .version = FST_VERSION_STRING,
     .solve = solve,
+    .shortest = shortest,
     .eigen = eigen,
 };

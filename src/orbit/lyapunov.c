@@ -339,7 +339,7 @@ fst_status fst_lyapunov_find(const fst_params *params, const fst_progress *progr
     if (status != FST_OK)
         return status;
     const double period = fst_drive_period_double(s.setup.model.groups.omega);
-    const double discarded = fst_run_discard(params), measured = params->run_periods - discarded;
+    const double discarded = fst_run_discard(params), measured = fst_run_periods(params) - discarded;
     s.whole = (DISCARD_WORK * discarded + ALIGNING + measured) * period;
     status = discard(&s, &family, discarded * period, error);
     if (status != FST_OK)

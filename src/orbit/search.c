@@ -407,7 +407,7 @@ fst_status fst_search_orbit(const fst_family *family, fst_solution *out, fst_orb
     *outcome = FST_ORBIT_FOUND;
     search *s = calloc(1, sizeof *s);
     if (!s)
-        return fst_fail(error, FST_NO_MEMORY, "orbit", "out of memory");
+        return fst_watch_end(family->watch, fst_fail(error, FST_NO_MEMORY, "orbit", "out of memory"), error);
     s->family = family;
     s->half_distance = s->full_distance = INFINITY;
     s->unfollowed = -INFINITY;
@@ -420,14 +420,14 @@ fst_status fst_search_orbit(const fst_family *family, fst_solution *out, fst_orb
         status = fst_solution_flow(family, 0.0, start, SEARCH_TOLERANCE, &s->model, &s->flow, error);
     if (status == FST_OK) {
         s->drive_period = fst_drive_period_double(model->groups.omega);
-        status = follow(s, family->params.run_periods * s->drive_period, out, error);
+        status = follow(s, fst_run_periods(&family->params) * s->drive_period, out, error);
     }
     *outcome = s->outcome;
     fst_flow_free(s->flow);
     fst_model_free(s->model);
     fst_model_free(model);
     free(s);
-    return status;
+    return fst_watch_end(family->watch, status, error);
 }
 
 fst_status fst_orbit_find(const fst_params *params, const fst_progress *progress, fst_orbit *orbit,

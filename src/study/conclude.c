@@ -63,7 +63,7 @@ static void fill_end(const fst_watched_run *run, int steady, fst_run_result *res
     result->end_time = t.high;
     result->settled_at = run->end.happened ? NAN : run->settling.settled_at;
     const int all_done = steady && t.high == run->window.span.until && isnan(run->settling.settled_at);
-    result->periods = all_done ? run->params->run_periods : whole + rest;
+    result->periods = all_done ? fst_run_periods(run->params) : whole + rest;
     result->omega = fst_drive_rate_double(&flow->drive, t);
     const fst_model *model = run->model;
     const int as_given = steady && isnan(model->params.drive_omega);
@@ -139,7 +139,7 @@ fst_status fst_conclude(const fst_watched_run *run, const fst_exponent *exponent
             result->reason, sizeof result->reason,
             "the run is too short: %.6g drive periods and %.6g of them discarded leave no two whole ones for "
             "the means; raise run.periods or lower run.discard",
-            run->params->run_periods, run->window.span.from / run->window.period);
+            fst_run_periods(run->params), run->window.span.from / run->window.period);
         return FST_OK;
     }
     fst_means_fill(&run->window, series, run->params, result);

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/number.h"
 #include "model/params.h"
+#include "model/worlds.h"
 
 typedef struct axis {
     const fst_param_info *info;
@@ -210,13 +211,39 @@ static const axis *axis_over(const fst_grid *grid, const char *key)
     return NULL;
 }
 
+/* Rows of one bead are those of a bead on a flat plate in air. */
+static fst_status check_flat(const fst_grid *grid, fst_error *error)
+{
+    static const char *const beyond[] = {
+        "plate.shape", "plate.bowl_radius", "plate.tilt",      "medium.",    "field.", "coils", "wave.",
+        "world.",      "drive.waveform",    "drive.amplitude", "drive.chirp"};
+    if (grid->base.bead_count)
+        return FST_OK;
+    for (int i = 0; i < grid->axis_count; ++i)
+        for (size_t k = 0; k < sizeof beyond / sizeof *beyond; ++k)
+            if (strncmp(grid->axes[i].info->key, beyond[k], strlen(beyond[k])) == 0)
+                return fst_fail(
+                    error, FST_BAD_INPUT, AXES,
+                    "%s is known to `run` and `locked` alone: the rows of one bead are those of a bead on a "
+                    "flat plate in air",
+                    grid->axes[i].info->key);
+    return fst_check_no_world(&grid->base, error);
+}
+
 /* Axes along which all rows would be alike are mistakes. */
 static fst_status check_effects(const fst_grid *grid, fst_error *error)
 {
+    const fst_status flat = check_flat(grid, error);
+    if (flat != FST_OK)
+        return flat;
     if (axis_over(grid, "run.samples"))
         return fst_fail(error, FST_BAD_INPUT, AXES,
                         "run.samples concerns written trajectories only and changes nothing in a row");
     for (int i = 0; i < grid->axis_count; ++i) {
+        const int bead = fst_param_bead(grid->axes[i].param);
+        if (bead >= grid->base.bead_count)
+            return fst_fail(error, FST_BAD_INPUT, AXES, "%s: the scene lists %d beads: list this one too",
+                            grid->axes[i].info->key, grid->base.bead_count);
         const char *key = grid->axes[i].info->key, *of,
                    *choice = fst_param_missing_choice(&grid->base, key, &of);
         if (choice && !axis_over(grid, of))

@@ -111,7 +111,7 @@ fst_status fst_run(const fst_params *params, const fst_run_options *options, fst
     s->options = options;
     status = fst_watched_run_begin(&s->run, &at_start, options->start, error);
     if (status == FST_OK) {
-        fst_ramp_begin(&s->ramp, options, fst_run_discard(params), params->run_periods, &s->run.window);
+        fst_ramp_begin(&s->ramp, options, fst_run_discard(params), fst_run_periods(params), &s->run.window);
         if (s->ramp.is_given)
             s->run.settling.until = s->ramp.until; /* its drive has arrived */
         status = simulate(s, error);

@@ -40,7 +40,7 @@ fst_status fst_watched_run_begin(fst_watched_run *run, const fst_params *params,
     if (status != FST_OK)
         return status;
     const double period = fst_drive_period_double(run->model->groups.omega);
-    const fst_span span = {.from = fst_run_discard(params) * period, .until = params->run_periods * period};
+    const fst_span span = {.from = fst_run_discard(params) * period, .until = fst_run_periods(params) * period};
     fst_window_begin(&run->window, &span, period, run->flow);
     run->window.returns.left_out.rtol = params->run_rtol;
     run->window.returns.left_out.limit = fmax(1e-9, 10.0 * params->run_rtol);

@@ -23,8 +23,15 @@ static int is_choice(const fst_grid *grid, int axis)
     return fst_param_at(fst_param_find(fst_grid_key(grid, axis)))->kind == FST_KIND_CHOICE;
 }
 
+static int has_beads(const fst_grid *grid)
+{
+    return fst_grid_base(grid)->bead_count > 0;
+}
+
 int fst_sweep_column_count(const fst_grid *grid)
 {
+    if (has_beads(grid)) /* point, axes, status, reason and their own */
+        return 1 + fst_grid_axis_count(grid) + 2 + fst_bead_column_count();
     return 1 + fst_grid_axis_count(grid) + FIRST_COUNT + fst_result_count() + COUNT_COUNT + FST_STATE_SIZE;
 }
 
@@ -37,6 +44,18 @@ char *fst_sweep_columns_sql(const fst_grid *grid)
     (void)fputs("point INTEGER PRIMARY KEY", out);
     for (int i = 0; i < fst_grid_axis_count(grid); ++i)
         (void)fprintf(out, ", \"%s\" %s", fst_grid_key(grid, i), is_choice(grid, i) ? "TEXT" : "REAL");
+    if (has_beads(grid)) {
+        (void)fputs(", status TEXT, reason TEXT", out);
+        for (int i = 0; i < fst_bead_column_count(); ++i) {
+            const fst_bead_column *column = fst_bead_column_at(i);
+            (void)fprintf(out, ", %s %s", column->name,
+                          column->kind == FST_BEAD_NAME   ? "TEXT"
+                          : column->kind == FST_BEAD_REAL ? "REAL"
+                                                          : "INTEGER");
+        }
+        (void)fputs(", checksum INTEGER", out);
+        return fst_print_end(&printed);
+    }
     (void)fprintf(out, ", %s", FIRST);
     for (int i = 0; i < fst_result_count(); ++i)
         (void)fprintf(out, ", %s REAL", fst_result_at(i)->name);
@@ -66,9 +85,11 @@ char *fst_sweep_select_sql(void)
     return strdup("SELECT * FROM rows WHERE point >= ? ORDER BY point");
 }
 
-char *fst_sweep_state_sql(void)
+char *fst_sweep_state_sql(const fst_grid *grid)
 {
     fst_printed printed;
+    if (has_beads(grid)) /* whose states are not carried */
+        return strdup("SELECT ?1 < 0 AND ?2 < 0");
     FILE *out = fst_print_begin(&printed);
     if (!out)
         return NULL;
@@ -141,6 +162,34 @@ static void name_choice(const char *key, int value, char *name, size_t size)
     (void)fst_params_get(&params, param, name, size);
 }
 
+/* The columns of several beads. */
+static void bind_beads(binding *b, const fst_sweep_record *record)
+{
+    char name[64];
+    const int done = record->status == FST_OK;
+    bind_text(b, done ? "done" : fst_status_text(record->status));
+    bind_text(b, record->result.reason);
+    for (int i = 0; i < fst_bead_column_count(); ++i) {
+        const fst_bead_column *column = fst_bead_column_at(i);
+        const void *field = (const char *)&record->beads + column->offset;
+        size_t length;
+        if (!done) {
+            bind_null(b);
+        } else if (column->kind == FST_BEAD_REAL) {
+            bind_real(b, *(const double *)field);
+        } else if (column->kind == FST_BEAD_COUNT) {
+            bind_integer(b, *(const int64_t *)field);
+        } else if (column->kind == FST_BEAD_INT) {
+            bind_integer(b, *(const int *)field);
+        } else {
+            const char *from = fst_name_at(column->names, *(const int *)field, &length);
+            (void)snprintf(name, sizeof name, "%.*s", (int)length, from);
+            bind_text(b, name);
+        }
+    }
+    (void)sqlite3_bind_int64(b->insert, b->place, (sqlite3_int64)b->sum);
+}
+
 void fst_sweep_bind(sqlite3_stmt *insert, const fst_grid *grid, uint64_t seed, const fst_sweep_record *record)
 {
     const fst_run_result *r = &record->result;
@@ -155,6 +204,10 @@ void fst_sweep_bind(sqlite3_stmt *insert, const fst_grid *grid, uint64_t seed, c
         } else {
             bind_real(&b, value);
         }
+    }
+    if (has_beads(grid)) {
+        bind_beads(&b, record);
+        return;
     }
     bind_text(&b, record->status == FST_OK ? "done" : fst_status_text(record->status));
     bind_integer(&b, record->carried);
@@ -272,10 +325,23 @@ fst_status fst_sweep_check_key(const char *key, const char *where, fst_error *er
         const size_t used = strlen(names);
         (void)snprintf(names + used, sizeof names - used, "|%s", fst_result_at(i)->name);
     }
+    for (int i = 0; i < fst_bead_column_count(); ++i) {
+        const size_t used = strlen(names);
+        (void)snprintf(names + used, sizeof names - used, "|%s", fst_bead_column_at(i)->name);
+    }
     if (fst_name_place(key, names) >= 0)
         return FST_OK;
     return fst_fail(error, FST_BAD_INPUT, where, "unknown key \"%.60s\"; %s", key,
                     fst_suggest_name(key, names, suggestion));
+}
+
+fst_status fst_sweep_find(sqlite3_stmt *row, const char *key, const char *where, int *place, fst_error *error)
+{
+    *place = fst_sweep_place(row, key);
+    if (*place > 0)
+        return FST_OK;
+    return fst_fail(error, FST_BAD_INPUT, where, "the rows of this sweep, of %s, have no %s",
+                    fst_sweep_place(row, "outcome") ? "several beads" : "one bead", key);
 }
 
 int fst_sweep_place(sqlite3_stmt *row, const char *key)
@@ -293,6 +359,11 @@ double fst_sweep_number(sqlite3_stmt *rows, int column)
     if (sqlite3_column_type(rows, column) != SQLITE_TEXT)
         return sqlite3_column_double(rows, column);
     const char *text = (const char *)sqlite3_column_text(rows, column);
+    const fst_bead_column *of_beads = fst_bead_column_find(sqlite3_column_name(rows, column));
+    if (of_beads && of_beads->names) {
+        const int place = fst_name_place(text, of_beads->names);
+        return place < 0 ? NAN : (double)place;
+    }
     for (int i = 0; i < FST_REGIME_COUNT; ++i)
         if (strcmp(text, fst_regime_name((fst_regime)i)) == 0)
             return i;

@@ -18,7 +18,7 @@ int fst_sweep_column_count(const fst_grid *grid);
 char *fst_sweep_columns_sql(const fst_grid *grid);
 char *fst_sweep_insert_sql(const fst_grid *grid);
 char *fst_sweep_select_sql(void);
-char *fst_sweep_state_sql(void);
+char *fst_sweep_state_sql(const fst_grid *grid);
 
 /* Bind a record and its checksum, which begins with `seed`, to the inserting statement. */
 void fst_sweep_bind(sqlite3_stmt *insert, const fst_grid *grid, uint64_t seed, const fst_sweep_record *record);
@@ -26,7 +26,10 @@ void fst_sweep_bind(sqlite3_stmt *insert, const fst_grid *grid, uint64_t seed, c
 /* The place of a key among the columns of a row that is read; 0, the point's, where rows do not have it. */
 int fst_sweep_place(sqlite3_stmt *row, const char *key);
 
-/* A value of a row that was read as a number, regimes and symmetries by their index; NAN: undefined. */
+/* The same.  FST_BAD_INPUT: rows do not have it. */
+fst_status fst_sweep_find(sqlite3_stmt *row, const char *key, const char *where, int *place, fst_error *error);
+
+/* A value of a row that was read as a number, names of lists by their index; NAN: undefined. */
 double fst_sweep_number(sqlite3_stmt *row, int column);
 
 /* Whether rows have this key.  FST_BAD_INPUT: no; the sentence names the nearest one. */

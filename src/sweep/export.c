@@ -208,6 +208,9 @@ static const char *codes_of(const char *column)
     for (size_t i = 0; i < sizeof lists / sizeof *lists; ++i)
         if (strcmp(lists[i][0], column) == 0)
             return lists[i][1];
+    const fst_bead_column *of_beads = fst_bead_column_find(column);
+    if (of_beads && of_beads->names)
+        return of_beads->names;
     const int param = fst_param_find(column);
     const fst_param_info *info = fst_param_at(param);
     return info && info->kind == FST_KIND_CHOICE ? info->names : NULL;
@@ -241,6 +244,9 @@ static void describe(const char *name, fst_column_info *info)
             info->unit = fst_result_at(i)->unit;
             info->doc = fst_result_at(i)->doc;
         }
+    const fst_bead_column *of_beads = fst_bead_column_find(name);
+    if (of_beads && info->doc[0] == '\0')
+        info->unit = of_beads->unit;
     if (codes_of(name))
         info->doc = codes_of(name); /* the texts in the order of their codes 0, 1, ... */
 }

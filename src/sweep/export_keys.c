@@ -43,7 +43,8 @@ static const char *unit_of_result(const char *key)
     for (int i = 0; i < fst_result_count(); ++i)
         if (strcmp(fst_result_at(i)->name, key) == 0)
             return fst_result_at(i)->unit;
-    return "1";
+    const fst_bead_column *of_beads = fst_bead_column_find(key);
+    return of_beads ? of_beads->unit : "1";
 }
 
 static void write_name(FILE *out, const char *name, const char *unit)
@@ -97,7 +98,12 @@ static void write_result(const table_writer *w, const char *key, double value, c
 {
     char text[64] = "";
     const char *unit;
-    if (isfinite(value) && strcmp(key, "regime") == 0)
+    size_t length;
+    const fst_bead_column *of_beads = fst_bead_column_find(key);
+    if (isfinite(value) && of_beads && of_beads->names) {
+        const char *name = fst_name_at(of_beads->names, (int)value, &length);
+        (void)snprintf(text, sizeof text, "%.*s", (int)length, name);
+    } else if (isfinite(value) && strcmp(key, "regime") == 0)
         (void)snprintf(text, sizeof text, "%s", fst_regime_name((fst_regime)value));
     else if (isfinite(value) && strcmp(key, "symmetry") == 0)
         (void)snprintf(text, sizeof text, "%s", fst_symmetry_name((fst_symmetry)value));
@@ -148,10 +154,11 @@ static fst_status find_places(table_writer *w, sqlite3_stmt *row, fst_error *err
 {
     if (w->count > MOST_KEYS)
         return fst_fail(error, FST_BAD_INPUT, "fst_sweep_export_keys.keys", "at most %d keys", MOST_KEYS);
-    for (int i = 0; i < w->count; ++i)
-        w->places[i] = fst_sweep_place(row, w->keys[i]);
+    fst_status found = FST_OK;
+    for (int i = 0; i < w->count && found == FST_OK; ++i)
+        found = fst_sweep_find(row, w->keys[i], w->file.name, &w->places[i], error);
     w->status = fst_sweep_place(row, "status");
-    return FST_OK;
+    return found;
 }
 
 /* The lines come from the file one by one, so that a grid may have more points than memory has room for. */

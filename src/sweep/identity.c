@@ -32,6 +32,8 @@ static int results_version(const fst_grid *grid)
     int dry = base->friction_law == FST_FRICTION_COULOMB || base->friction_law == FST_FRICTION_ROLLING;
     for (int i = 0; i < fst_grid_axis_count(grid); ++i)
         dry |= strncmp(fst_grid_axis_text(grid, i), "friction.law=", strlen("friction.law=")) == 0;
+    if (base->bead_count)
+        return FST_BEADS_RESULTS_VERSION;
     return dry ? FST_DRY_RESULTS_VERSION : FST_RESULTS_VERSION;
 }
 

@@ -88,7 +88,7 @@ static fst_status prepare(fst_journal *journal, fst_error *error)
     fst_status status = fst_database_do(database, journal->path, mode, error);
     (void)sqlite3_wal_hook(database, note_log, journal);
     char *insert = fst_sweep_insert_sql(journal->grid);
-    char *state = fst_sweep_state_sql();
+    char *state = fst_sweep_state_sql(journal->grid);
     if (status == FST_OK && (!insert || !state))
         status = fst_fail(error, FST_NO_MEMORY, journal->path, "out of memory");
     if (status == FST_OK &&

@@ -10,6 +10,8 @@
 
 #include <festoon/festoon_tools.h>
 
+#include "sweep/bead_columns.h"
+
 /* What a sweep is: two sweeps with the same identity have the same rows. */
 typedef struct fst_sweep_identity {
     const fst_grid *grid;
@@ -29,6 +31,7 @@ typedef struct fst_sweep_record {
     fst_status status; /* other than FST_OK: the run failed, and result.reason says why */
     int dynamics;      /* fst_dynamics */
     fst_run_result result;
+    fst_beads_row beads; /* in its place, of a scene that lists beads */
 } fst_sweep_record;
 
 typedef struct fst_journal fst_journal;

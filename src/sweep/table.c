@@ -30,7 +30,7 @@ static fst_status read_rows(const fst_sweep_file *file, const char *const *keys,
     if (!places && status == FST_OK)
         status = fst_fail(error, FST_NO_MEMORY, file->name, "out of memory");
     for (int i = 0; i < count && status == FST_OK; ++i)
-        places[i] = fst_sweep_place(rows.row, keys[i]);
+        status = fst_sweep_find(rows.row, keys[i], file->name, &places[i], error);
     while (status == FST_OK && (status = fst_sweep_rows_next(&rows, &more, error)) == FST_OK && more) {
         table->computed[rows.next - 1] = 1;
         for (int i = 0; i < count; ++i)

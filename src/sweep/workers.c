@@ -99,7 +99,7 @@ static int row_done(void *user, fst_row_job *row, fst_status status, const fst_r
     row->point = fst_chain_point(w->identity, chain, place);
     row->has_start = status == FST_OK && result->regime != FST_REGIME_EJECTED &&
                      result->regime != FST_REGIME_LIFTED &&
-                     (result->periods >= row->params.run_periods || !isnan(result->settled_at));
+                     (result->periods >= fst_run_periods(&row->params) || !isnan(result->settled_at));
     memcpy(row->start, result->final_state, sizeof row->start);
     (void)fst_grid_params(w->identity->grid, row->point, &row->params, NULL);
     return 1;
@@ -142,6 +142,33 @@ static void *find_image(void *user, const fst_row_job *job, size_t *size)
     return bytes;
 }
 
+/* Tasks of scenes that list beads, until there are none. */
+static fst_status bead_rows(fst_workers *w, const fst_progress *progress, fst_error *error)
+{
+    fst_row_job job;
+    while (next_task(w, &job) > 0) {
+        fst_sweep_record record;
+        fst_beads_result result;
+        fst_error why = {FST_OK, "", ""};
+        fst_beads_options options = fst_default_beads_options();
+        options.progress = progress;
+        memset(&record, 0, sizeof record);
+        record.point = job.point;
+        record.status = fst_beads_run_scene(&job.params, &options, &result, &why);
+        if (record.status == FST_INTERRUPTED) {
+            *error = why;
+            return FST_INTERRUPTED;
+        }
+        if (record.status == FST_OK)
+            record.beads = fst_beads_row_of(&result);
+        (void)snprintf(record.result.reason, sizeof record.result.reason, "%.255s",
+                       record.status == FST_OK ? result.reason : why.sentence);
+        fst_beads_free(&result);
+        hand_over(w, &record);
+    }
+    return FST_OK;
+}
+
 /* Wait for a task; 0: no more will come. */
 static int wait_for_task(fst_workers *w)
 {
@@ -168,7 +195,8 @@ static void *labour(void *user)
         .user = w, .seconds = w->plan.checkpoint_seconds, .save = save_image, .find = find_image};
     fst_status status = FST_OK;
     while (status == FST_OK && wait_for_task(w))
-        status = fst_rows_with_images(&work, &images, &error);
+        status = fst_grid_base(w->identity->grid)->bead_count ? bead_rows(w, &progress, &error)
+                                                              : fst_rows_with_images(&work, &images, &error);
     pthread_mutex_lock(&w->lock);
     if (status != FST_OK && status != FST_INTERRUPTED && w->status == FST_OK) {
         w->status = status;

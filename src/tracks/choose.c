@@ -181,31 +181,26 @@ static fst_status sorted_spots(choice *c, track_spot **spots, size_t *count, fst
 
 /* ---------------------------------------------------------------- by which clock */
 
-/* The time from frame to frame: the median of the steps of t over those of the frame numbers (of one frame
- * each, where there are none).  NAN: no two rows have a time. */
-static double frame_interval(const track_spot *spots, size_t count, int by_frame_number)
+/* Number the frames by their times: whole multiples of the median of the steps, at least one. */
+static fst_status number_frames(track_spot *spots, size_t count, const char *path, fst_error *error)
 {
     double *steps = malloc((count + 1) * sizeof *steps);
     size_t found = 0;
-    for (size_t i = 1; steps && i < count; ++i) {
-        const double frames = by_frame_number ? spots[i].frame - spots[i - 1].frame : 1.0;
-        const double step = (spots[i].t - spots[i - 1].t) / frames;
+    if (!steps)
+        return fst_fail(error, FST_NO_MEMORY, path, "no memory for the times of %zu frames", count);
+    for (size_t i = 1; i < count; ++i) {
+        const double step = spots[i].t - spots[i - 1].t;
         if (isfinite(step) && step > 0)
             steps[found++] = step;
     }
-    const double median = found > 0 ? fst_median(steps, found) : NAN;
+    const double interval = found > 0 ? fst_median(steps, found) : NAN; /* NAN: no two rows have a time */
     free(steps);
-    return median;
-}
-
-/* Number the frames by their times: whole multiples of `interval`, at least one. */
-static void number_frames(track_spot *spots, size_t count, double interval)
-{
     spots[0].frame = 0.0;
     for (size_t i = 1; i < count; ++i) {
         const double step = (spots[i].t - spots[i - 1].t) / interval;
         spots[i].frame = spots[i - 1].frame + fmax(1.0, step < 1e9 ? round(step) : 1e9);
     }
+    return FST_OK;
 }
 
 /* The straight line t = t0 + frame/fps through the rows, and how far the farthest row is from it, in frames. */
@@ -248,8 +243,8 @@ static fst_status set_clock(const choice *c, track_spot *spots, size_t count, fs
             return fst_text_fail(c->path, spots[i].line, error,
                                  "the time %.9g s does not come after %.9g s, that of the frame before",
                                  spots[i].t, spots[i - 1].t);
-    if (!c->by_frame)
-        number_frames(spots, count, frame_interval(spots, count, 0));
+    if (!c->by_frame && number_frames(spots, count, c->path, error) != FST_OK)
+        return FST_NO_MEMORY;
     double unevenness = 0.0;
     track->fps = timed && count > 1 ? clock_of(spots, count, &unevenness) : 1.0 / (c->raw->interval * c->step);
     track->steady = unevenness < 0.1;
@@ -319,8 +314,8 @@ fst_status track_choose(const track_raw *raw, const char *path, const fst_track_
         status = fst_track_append(track, (int64_t)spots[i].frame, spots[i].t, spots[i].x * c.scale,
                                   spots[i].y * (raw->y_down ? -c.scale : c.scale), error);
     free(spots);
-    if (status == FST_OK && understood)
-        *understood = tell(&c, track);
+    if (status == FST_OK && understood && !(*understood = tell(&c, track)))
+        status = fst_fail(error, FST_NO_MEMORY, path, "no memory for what was understood of this track");
     if (status != FST_OK)
         fst_track_free(track);
     return status;

@@ -212,7 +212,7 @@ class Scenes(Case):
             piped = self.good("check", "-", "--json", stdin=file)
         self.assertEqual(piped, self.good("check", scene, "--json"))
         for contents, status, part in (("bead:\n  raduis: 1 mm\n", 2, "standard input:2: unknown key"), ("", 2, "empty"),
-                                       ("run:\n  step: 0.01\n", 2, "standard input:2: run.step is gone"),
+                                       ("friction:\n  contact_rate: 0.01\n", 2, "standard input:2: friction.contact_rate is gone"),
                                        ("# " + "x" * (1 << 20), 2, "1048576")):
             reader = subprocess.run([FESTOON, "run", "-"], input=contents.encode(), capture_output=True, check=False)
             self.assertEqual((reader.returncode, reader.stdout), (status, b""))
@@ -270,8 +270,20 @@ class Scenes(Case):
         mapped = [f"magnet.file={field}", "magnet.shape=grid"]
         needs = {"bead.remanence": ["magnet.b0=10mT"], "magnet.shape": mapped[:1], "magnet.file": mapped[1:],
                  "magnet.checksum": mapped}
+        beads = ["beads[0].start.phi=0", "beads[1].start.phi=180"]
+        needs.update(dict.fromkeys(("contact.pair_rate", "contact.pair_mu", "model.chi", "run.method"), beads))
+        needs["run.step"] = [*beads, "run.method=stepping"]
+        needs["plate.shape"] = [f"start.position[{i}]={x}" for i, x in enumerate((0, 0, 0.08))]
+        needs["plate.bowl_radius"] = ["plate.shape=bowl"]
+        wave = ["magnet.b0=10mT", "wave.length=0.1", "wave.amplitude=0.01", "drive.waveform=wave"]
+        needs["drive.waveform"] = wave[:3]
+        needs.update({key: [text for text in wave if key not in text] for key in ("wave.length", "wave.amplitude", "wave.ratio")})
+        needs["drive.amplitude"] = ["drive.waveform=oscillating"]
+        needs["drive.chirp"] = ["drive.waveform=chirp"]
+        needs["drive.table"] = ["drive.waveform=table"]
         scene = self.json("check", *(word for text in mapped for word in ("--set", text)))["scene"]
-        texts = {"magnet.file": field, "magnet.checksum": scene["magnet.checksum"]}
+        texts = {"magnet.file": field, "magnet.checksum": scene["magnet.checksum"], "run.step": 2000.0,
+                 "drive.table": "0:0 1:90"}
         for row in json.loads(self.good("schema", "--json")):
             if row["parts"]:  # tests/model/test_parts_keys.c
                 continue

@@ -27,6 +27,9 @@ printf '%s\n' "${COMPREPLY[@]}"
 """
 
 
+KEYS_OF_THE_DRIVE = [f"drive.{name}=" for name in ("frequency", "omega", "waveform", "amplitude", "chirp", "table")]
+
+
 class Completion(Case):
     def setUp(self):
         super().setUp()
@@ -67,7 +70,7 @@ class Completion(Case):
         self.assertEqual(self.offered("run", "--set", "magnet.parts[0].kind", "=", "c"), ["cuboid", "cylinder"])
         with open(self.path("magnet.parts0.kind="), "w", encoding="utf-8"):  # what the key is as a pattern
             self.assertEqual(self.offered("run", "--set", ""), keys)
-        self.assertEqual(self.offered("run", "--set", "drive."), ["drive.frequency=", "drive.omega="])
+        self.assertEqual(self.offered("run", "--set", "drive."), KEYS_OF_THE_DRIVE)
         self.assertEqual(self.offered("sweep", "--over", "start.p"), ["start.phi="])
         # Readline breaks words at "=".
         for words in (["--set", "model.dynamics", "=", ""], ["--set", "model.dynamics", "="],
@@ -81,7 +84,7 @@ class Completion(Case):
         self.assertEqual(self.offered("run", "--set=model.dynamics=f"), ["--set=model.dynamics=farago2020"])
 
     def test_choices(self):
-        self.assertEqual(self.offered("branch", "--kind", ""), ["counter", "locked", "all"])
+        self.assertEqual(self.offered("branch", "--kind", ""), ["counter", "locked", "all", "levitating"])
         self.assertEqual(self.offered("branch", "--kind", "=", "c"), ["counter"])
         self.assertEqual(self.offered("plot", "--kind", "lo"), ["local-n"])
         self.assertEqual(self.offered("sweep", "--threads", ""), [])
@@ -158,9 +161,9 @@ class OtherShells(Case):
 
         self.assertIn("run", offered("festoon "))
         self.assertEqual(offered("festoon run --js"), {"--json"})
-        self.assertEqual(offered("festoon run --set drive."), {"drive.frequency=", "drive.omega="})
+        self.assertEqual(offered("festoon run --set drive."), set(KEYS_OF_THE_DRIVE))
         self.assertEqual(offered("festoon run --set model.dynamics=f"), {"model.dynamics=farago2020"})
-        self.assertEqual(offered("festoon branch --kind "), {"counter", "locked", "all"})
+        self.assertEqual(offered("festoon branch --kind "), {"counter", "locked", "all", "levitating"})
         self.assertNotIn("--kind", offered("festoon run --"))
         for name in ("a b.yaml", "notes.txt"):
             open(self.path(name), "w", encoding="utf-8").close()

@@ -291,6 +291,21 @@ class Branches(Case):
         (self.folder / "part.json").write_text(json.dumps(document))
         self.assertIn("(incomplete: interrupted)", self.plot("part.json")[0])
 
+    def test_options_of_other_files(self):
+        """What says nothing of a file is not left aside in silence: --key drew <r> of a branch instead of the key."""
+        good("sweep", "--set", "run.periods=6", "--set", "run.discard=2", "--over", "drive.frequency=9:10:2", "-o",
+             self.folder / "s.db")
+        for name, word, words in (
+                ("locked.json", "--key does not belong to a branch; what does: --observable", ["--key", "mean_alpha_dot"]),
+                ("locked.json", "--kind does not", ["--kind", "section"]), ("locked.json", "--inset", ["--inset"]),
+                ("t.csv", "--observable does not belong to a trajectory", ["--observable", "mean_nz"]),
+                ("t.csv", "--runs does not", ["--runs", "r.json"]),
+                ("t.csv", "--arrows does not belong to this kind", ["--arrows", "--kind", "time"]),
+                ("t.csv", "--zoom does not", ["--zoom", "0,1,0,1", "--kind", "section"]),
+                ("s.db", "--observable does not belong to a sweep; what does: --key", ["--observable", "mean_nz"]),
+                ("s.db", "--key does not belong to a figure with measured points", ["--key", "mean_r", "--points", "p.csv"])):
+            self.refused(word, "plot", self.folder / name, *words)
+
     def test_an_observable_that_is_not_there(self):
         for name, observable in (("locked.json", "festoons"), ("counter.json", "slip"), ("counter.json", "second")):
             self.refused("has a value of " + observable, "plot", self.folder / name, "--observable", observable)

@@ -10,6 +10,7 @@
 static inline void check_same_params(const fst_params *actual, const fst_params *expected)
 {
     assert_int_equal(actual->magnet_part_count, expected->magnet_part_count);
+    assert_int_equal(actual->bead_count, expected->bead_count);
     for (int i = 0; i < fst_params_row_count(expected); i++) {
         const fst_param_info *info = fst_param_at(i);
         const size_t size = info->kind == FST_KIND_REAL   ? sizeof(double)

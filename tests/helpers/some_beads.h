@@ -22,7 +22,8 @@ static inline beads_world free_beads(int count)
     beads_world world = {.count = count};
     const double eps = 2.5 / 23;
     for (int i = 0; i < count; ++i)
-        world.body[i] = (beads_body){eps, 1.0, 0.4 * eps * eps, 0.0, sqrt(CHI)};
+        world.body[i] =
+            (beads_body){.radius = eps, .mass = 1.0, .inertia = 0.4 * eps * eps, .dipole = sqrt(CHI)};
     world.plate = NAN;
     world.plate_radius = INFINITY;
     world.bounce_least = 1e-4;

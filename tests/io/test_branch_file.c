@@ -219,7 +219,7 @@ static void other_members_are_refused(void **state)
         {"\"specials\"", "\"type\": \"fold\"", "\"type\": 0", "specials[0].type"},
         {"\"specials\"", "\"type\": \"fold\",", "", "specials[0].type is missing: it must be one of"},
         {"\"crossings\"", "\"transcritical\"", "\"Fold\"", "crossings[0].type"},
-        {"{", "\"all\"", "\"al\"", "kind must be one of counter|locked|all, not \"al\""},
+        {"{", "\"all\"", "\"al\"", "kind must be one of counter|locked|all|levitating, not \"al\""},
         {"{", "\"drive.omega\"", "\"drive.omega\\n`id`\"", "parameter must be a key of the scene"},
         {"{", "\"drive.omega\"", "\"drive.omega\\u0000x\"", "this is no JSON"},
         {"{", "\"drive.omega\"", "\"model.dynamics\"", "parameter"},

@@ -73,6 +73,11 @@ static void bad_scenes_are_refused(void **state)
         {"drive:\n  frequency: 10 Hz\n  omega: 0.2\n", "s.yaml:3", "drive.frequency on line 2"},
         {"drive:\n  omega: 0.2\n  frequency: 10 Hz\n", "s.yaml:3", "drive.omega on line 2"},
         {"bead:\n  radius: 1 mm\nmodel:\n  eps: 0.1\n", "s.yaml:4", "bead.radius on line 2"},
+        {"start:\n  r: 1\n  position: [1 mm, 2 mm, 3 mm]\n", "s.yaml:3", "start.r on line 2"},
+        {"start:\n  position: [1 mm, 2 mm, 0, 0]\n", "s.yaml:2", "start.position[3]"},
+        {"start:\n  position: [1 mm, [2 mm], 0]\n", "s.yaml:2", "list within a list"},
+        {"start:\n  position: 1 mm\n", "s.yaml:2", "list of numbers"},
+        {"start:\n  n:\n    - 1\n    - 1 mm\n    - 0\n", "s.yaml:4", "start.n[1]"},
         {"model:\n  h: 0.8\nmagnet:\n  depth: 1 mm\n", "s.yaml:4", "model.h on line 2"},
         {"magnet:\n  width: 1 mm\nmodel:\n  lambda: 1\n", "s.yaml:4", "magnet.width on line 2"},
         {"model: {kappa: 1}\nbead: {moment: 1}\nmagnet: {b0: 1 mT}\n", "s.yaml:3", "keep one"},
@@ -157,6 +162,9 @@ static void scenes_survive_writing(void **state)
         {"model.dynamics", "farago2020"},
         {"magnet.lines", "1"},
         {"run.rtol", "1e-13"},
+        {"start.position[1]", "12 mm"},
+        {"start.position[0]", "-1 mm"},
+        {"start.position[2]", "3.3 mm"},
     };
     for (size_t i = 0; i < sizeof settings / sizeof settings[0]; i++) {
         assert_int_equal(fst_params_set(&params, settings[i][0], settings[i][1], NULL), FST_OK);

@@ -296,7 +296,7 @@ static void write_odd_file(const char *path, int hdf5, const char *name, double 
         assert_int_equal(fst_load_hdf5_module(&module, path, &error), FST_OK);
         assert_int_equal(module->create(path, columns, FST_COLUMN_COUNT, scene, &writer, &error), FST_OK);
     } else {
-        fst_csv_begin(out, scene);
+        fst_csv_begin(out, 0, scene, columns, FST_COLUMN_COUNT, NULL);
     }
     for (int i = 0; i < 3; i++) {
         const fst_sample sample = sample_at(i);
@@ -306,7 +306,7 @@ static void write_odd_file(const char *path, int hdf5, const char *name, double 
         if (hdf5)
             assert_int_equal(module->row(writer, values, &error), FST_OK);
         else
-            fst_csv_row(out, values);
+            fst_csv_row(out, values, FST_COLUMN_COUNT);
     }
     if (hdf5)
         assert_int_equal(module->finish(writer, NULL, 1, out, &error), FST_OK);

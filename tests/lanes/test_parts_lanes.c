@@ -17,8 +17,14 @@
 static fst_params magnet_of_cylinders(double scale)
 {
     static const fst_magnet_part parts[] = {
-        {FST_PART_CYLINDER, {0.004, 0, -0.004}, {0.02, 0.008, 0}, {0.3, -0.5, 0.8}, {0}, {0}},
-        {FST_PART_CYLINDER, {-0.02, 0.01, -0.006}, {0.01, 0.02, 0}, {0, 0, 1.1}, {0}, {80, 1, 2, -0.5}},
+        {FST_PART_CYLINDER, {0.004, 0, -0.004}, {0.02, 0.008, FST_PART_TURNING}, {0.3, -0.5, 0.8}, {0}, {0}, 0},
+        {FST_PART_CYLINDER,
+         {-0.02, 0.01, -0.006},
+         {0.01, 0.02, FST_PART_TURNING},
+         {0, 0, 1.1},
+         {0},
+         {80, 1, 2, -0.5},
+         0},
     };
     fst_params p = bead_at(0.31, FST_DYNAMICS_RIGID);
     p.magnet_shape = FST_MAGNET_PARTS;

@@ -389,7 +389,7 @@ static void test_turned(void **unused)
 {
     (void)unused;
     const fst_magnet_part given = {FST_PART_CYLINDER, {0.25, -0.5, 0.125}, {2, 1, 0}, {0.3, -0.5, 0.8}, {0},
-                                   {73, 1, 2, -2}};
+                                   {73, 1, 2, -2},    FST_PART_TURNING};
     const fst_groups groups = {.length_unit = 1, .field_unit = 1};
     static fst_parts_long_double parts;
     parts.part[0] = fst_make_part_long_double(&given, &groups);

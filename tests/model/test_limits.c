@@ -37,14 +37,14 @@ static void test_bounds(void **unused)
 {
     (void)unused;
     static const char *const refused[][2] = {
-        {"bead.radius", "0"},      {"bead.mass", "0"},         {"magnet.half_length", "0"},
-        {"magnet.lines", "0"},     {"magnet.lines", "-1"},     {"magnet.lines", "2.5"},
-        {"friction.gamma", "0"},   {"drive.frequency", "0"},   {"drive.omega", "0"},
-        {"model.eps", "0"},        {"model.h", "0"},           {"plate.radius", "0"},
-        {"run.periods", "0"},      {"run.rtol", "0"},          {"run.rtol", "1"},
-        {"run.samples", "0"},      {"start.r", "-0.1"},        {"friction.mu", "-0.1"},
-        {"magnet.depth", "-1 mm"}, {"model.kappa", "-1"},      {"run.discard", "-1"},
-        {"drive.frequency", "-1"}, {"plate.gravity", "-9.81"},
+        {"bead.radius", "0"},      {"bead.mass", "0"},        {"magnet.half_length", "0"},
+        {"magnet.lines", "0"},     {"magnet.lines", "-1"},    {"magnet.lines", "2.5"},
+        {"friction.gamma", "0"},   {"drive.frequency", "0"},  {"drive.omega", "0"},
+        {"model.eps", "0"},        {"model.h", "0"},          {"plate.radius", "0"},
+        {"run.periods", "0"},      {"run.rtol", "0"},         {"run.rtol", "1"},
+        {"run.samples", "0"},      {"start.r", "-0.1"},       {"friction.mu", "-0.1"},
+        {"magnet.depth", "-1 mm"}, {"model.kappa", "-1"},     {"run.discard", "-1"},
+        {"drive.frequency", "-1"}, {"plate.gravity", "-1e9"},
     };
     static const char *const taken[][2] = {
         {"magnet.lines", "1"}, {"magnet.lines", "99"}, {"start.r", "0"},       {"friction.mu", "0"},

@@ -18,6 +18,7 @@ import argparse
 import collections
 import concurrent.futures
 import filecmp
+import fnmatch
 import hashlib
 import json
 import os
@@ -412,7 +413,7 @@ def arguments():
     """The options."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--room", action="append", default=[], help="the faults of this room only")
-    parser.add_argument("--only", action="append", default=[], metavar="NAME", help="this fault only")
+    parser.add_argument("--only", action="append", default=[], metavar="NAME", help="this fault only; 'pair-*': those so called")
     parser.add_argument("--list", action="store_true", help="list the faults and what is known of them, run nothing")
     parser.add_argument("--likely", action="store_true",
                         help="run the likely tests only; what they do not notice stays open")
@@ -434,7 +435,8 @@ def main():
     except listed.Wrong as why:
         raise SystemExit(str(why)) from None
     if options.room or options.only:
-        entries = [entry for entry in entries if entry.room in options.room or entry.name in options.only]
+        entries = [entry for entry in entries if entry.room in options.room
+                   or any(fnmatch.fnmatch(entry.name, name) for name in options.only)]
     complaints = listed.stale(entries, SOURCE)
     for complaint in complaints:
         print(f"stale: {complaint}")

@@ -31,8 +31,14 @@ RANGES = {
     "model.lambda": ("0.3:0.5", 0.3, 0.5), "plate.radius": ("20cm:230mm", 0.2, 0.23),
     "plate.gravity": ("9.8 m/s2:10", 9.8, 10), "start.r": ("0.5:0.9", 0.5, 0.9),
     "start.phi": ("-90:0.25turn", -90, 90), "run.periods": ("2:3", 2, 3), "run.discard": ("0:1", 0, 1),
-    "run.rtol": ("1e-6:1e-5", 1e-6, 1e-5),
+    "run.rtol": ("1e-6:1e-5", 1e-6, 1e-5), "run.duration": ("0.2s:300 ms", 0.2, 0.3),
 }
+OF_BEADS = {"contact.pair_rate", "contact.pair_mu", "model.chi", "run.method"}  # of a list of beads alone
+OF_WORLDS = {"plate.shape", "plate.bowl_radius", "medium.density", "medium.viscosity",
+             "medium.drag_coefficient", "medium.added_mass", "medium.drag_rate", "medium.spin_drag_rate",
+             "medium.quadratic_drag",
+             "plate.tilt", "plate.tilt_azimuth", "drive.waveform", "drive.amplitude", "drive.chirp", "wave.length",
+             "wave.amplitude", "wave.ratio", "world.frame"}  # which no row of one bead takes
 DRY = "friction.law=coulomb"
 NEEDS = {"bead.a": ["bead.material=paramagnetic"], "bead.b": ["bead.material=mixed"], "friction.mu_static": [DRY],
          "friction.stribeck_speed": [DRY, "friction.mu_static=0.4"], "friction.rolling_resistance": [DRY],
@@ -74,10 +80,15 @@ class Keys(Over):
     def test_every_key_of_the_schema(self):
         keys = {row["key"]: row for row in json.loads(self.good("schema", "--json")) if not row["parts"]}
         numbers = {key for key, row in keys.items() if row["kind"] == "real"}
-        self.assertEqual(numbers, set(RANGES))
+        self.assertEqual(numbers, set(RANGES) | ((OF_BEADS | OF_WORLDS) & numbers) | {"run.step"})
         self.assertEqual({key for key, row in keys.items() if row["kind"] == "integer" or row["kind"] == "int"},
                          WHOLE | set(REFUSED))
-        for key in numbers:
+        for key in OF_BEADS:
+            self.says("choose several", f"{key}=" + ("exact,stepping" if key == "run.method" else "1,2"))
+        for key in OF_WORLDS:
+            self.says(f"{key} is known to `run` and `locked`", f"{key}=" + (",".join(keys[key]["names"]) if keys[key]["names"] else "0.1,0.4"))
+        self.says("choose stepping", "run.step=1e-5,1e-4")
+        for key in RANGES:
             with self.subTest(key=key):
                 self.check_real(key, keys[key]["unit"])
         for key in (key for key, row in keys.items() if row["kind"] == "text"):
@@ -85,7 +96,7 @@ class Keys(Over):
         field_map = self.path("map.csv")  # for the shape grid, with the height and within the reach of the default bead
         self.good("field", "--set", "magnet.b0=10mT", "--csv", field_map, "--radius", "60mm", "--spacing", "5mm")
         for key, row in keys.items():
-            if row["names"]:
+            if row["names"] and key not in OF_BEADS | OF_WORLDS:
                 with self.subTest(key=key):
                     given = [f"magnet.file={field_map}"] if key == "magnet.shape" else []
                     rows = self.table(f"{key}=" + ",".join(row["names"]), sets=NEEDS.get(key, []) + given)
@@ -187,7 +198,7 @@ class Forms(Over):
                              ("model.kappa=", "missing"), ("model.kappa=1,,2", "missing"),
                              ("model.kappa=nan:1:3", "no decimal number"), ("model.kappa=1:inf:3", "no decimal number"),
                              ("model.kappa=1:2:3:cubic", "unknown spacing"), ("model.kapa=1:2:3", "model.kappa"),
-                             ("=1:2:3", "unknown key"), ("run.step=0.01,0.02", "run.step is gone"),
+                             ("=1:2:3", "unknown key"), ("friction.contact_rate=0.01,0.02", "contact_rate is gone"),
                              ("contact.patch=point,pade", "choose hertz"), ("model.dynamics=rigit", "rigid")):
             with self.subTest(axis=axis):
                 self.says(wanted, axis)

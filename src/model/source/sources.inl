@@ -28,6 +28,7 @@
 
 #include "model/source/lines.inl"
 #include "model/source/parts.inl"
+#include "model/source/loop.inl"
 #include "model/source/grid.inl"
 #ifdef FST_OWN_SOURCE_BODIES
 #include FST_OWN_SOURCE_BODIES

@@ -1,0 +1,138 @@
+"""Several beads: the program's numbers, arrays of the samples, files, copies, and what is refused."""
+
+import copy
+import math
+import pickle
+import subprocess
+
+import numpy as np
+import pytest
+
+import festoon as fs
+from conftest import ask
+
+WALKER = dict(frequency="30 Hz", model__chi=1.243e-3, contact__pair_rate=312.5, run__periods=3, run__discard=1, run__samples=16)
+
+
+@pytest.fixture(scope="module")
+def pair():
+    return fs.Beads(beads=[{"start__phi": 3}, {"start__phi": 53}], **WALKER)
+
+
+@pytest.fixture(scope="module")
+def run(pair):
+    return pair.run(trajectory=True)
+
+
+def test_numbers_are_the_programs(program, pair, run, tmp_path):
+    pair.save(tmp_path / "pair.yaml")
+    theirs = ask(program, "run", str(tmp_path / "pair.yaml"), "--json")
+    ours = run.to_dict()
+    assert {key: ours[key] for key in theirs if key != "scene"} == {key: theirs[key] for key in theirs if key != "scene"}
+    assert fs.Beads(tmp_path / "pair.yaml") == pair and len(pair) == 2 and len(pair.beads) == 2
+
+
+def test_the_snap_of_two_beads(run):
+    """The second bead leaves the plate, the pair touches, the first lifts and lands: event-located times of an
+    independent program (several beads, 30 Hz, Phi = 3 and 53 degrees, pair rate 1), to 2 turns of the magnet."""
+    told = [(event["kind"], event["beads"], event["time"], event["speed"]) for event in run.events[:4]]
+    assert [(kind, beads) for kind, beads, *_ in told] == [("lift", [1]), ("touch", [0, 1]), ("lift", [0]), ("land", [0])]
+    assert np.allclose([time for *_, time, _ in told], [18.133451, 18.937630601, 19.023942, 19.235220], atol=2e-6, rtol=0)
+    assert abs(told[1][3] - 0.693348445) < 1e-8
+    assert run.counts["touch"] >= 1 and [group["kind"] for group in run.groups] == ["pair"]
+
+
+def test_samples(run):
+    tr = run.trajectory
+    assert tr.states.shape == (49, 2, 12) and tr.loads.shape == (49, 2) and len(tr) == 49
+    assert np.array_equal(tr.states[-1], [bead["final_state"] for bead in run.beads])
+    assert np.allclose(np.linalg.norm(tr.states[..., 6:9], axis=-1), 1) and not tr.states.flags.writeable
+    places = tr.places("lab")
+    assert np.allclose(np.hypot(places[..., 0], places[..., 1]), 23 * np.hypot(tr.states[..., 0], tr.states[..., 1]))
+    assert np.array_equal(np.isnan(tr.loads), tr.states[..., 2] > tr.setup.alone(0).groups.eps + 1e-9)
+
+
+def test_one_bead_of_a_list_keeps_its_path():
+    """Alone on the plate a bead of the list moves as fs.Bead does."""
+    keys = dict(frequency=12, run__periods=3, run__discard=1, run__samples=8)
+    one = fs.Bead(**keys).run(trajectory=True).trajectory
+    listed = fs.Beads(beads=[{}], **keys).run(trajectory=True).trajectory
+    assert np.allclose(listed.states[:, 0, 0], one.X, atol=1e-8) and np.allclose(listed.states[:, 0, 1], one.Y, atol=1e-8)
+
+
+@pytest.mark.parametrize("ending", ["h5", "csv"])
+def test_files(pair, run, tmp_path, ending):
+    path = tmp_path / f"t.{ending}"
+    assert pair.run(trajectory=path).trajectory is None
+    again = fs.read(path)
+    assert np.array_equal(again.states, run.trajectory.states) and np.array_equal(again.t, run.trajectory.t)
+    assert np.array_equal(again.loads, run.trajectory.loads, equal_nan=True) and again.setup == pair
+
+
+def test_a_sweep_of_the_program_is_exported(program, pair, tmp_path):
+    pair.save(tmp_path / "pair.yaml")
+    subprocess.run([program, "sweep", "pair.yaml", "--over", "drive.frequency=29:30:2", "-o", "s.db"], cwd=tmp_path, check=True,
+                   capture_output=True)
+    with pytest.raises(fs.BadInput, match="several beads"):
+        fs.read(tmp_path / "s.db")
+    fs.export(tmp_path / "s.db", tmp_path / "s.csv", keys=["outcome"])
+    assert len((tmp_path / "s.csv").read_text().splitlines()) >= 3
+
+
+def test_vectors_of_a_start():
+    bead = fs.Bead(start__position=["20 mm", "1 mm"], start__n=[None, 0, 1])
+    assert repr(bead) == "Bead(start__position=[0.02, 0.001, None], start__n=[None, 0.0, 1.0])"
+    assert eval(repr(bead), {"Bead": fs.Bead}) == bead and np.allclose(bead.start_state()[:2], [20 / 23, 1 / 23])
+
+
+def test_copies_and_pickles_are_equal(pair, run):
+    for one in (pair, run, run.trajectory):
+        for other in (pickle.loads(pickle.dumps(one)), copy.deepcopy(one)):
+            assert type(other) is type(one) and other == one
+    assert run != pair.replace(run__periods=2).run()
+
+
+def test_tables(run):
+    events = run.to_pandas("events", "lab")
+    assert list(events.kind[:2]) == ["lift", "touch"] and events.attrs["units"]["time"] == "s"
+    assert math.isclose(events.time[1], run.events[1]["time"] / 312.5)
+    assert math.isclose(run.to_pandas("beads", "lab").mean_r[0], 23 * run.beads[0]["mean_r"])
+    assert math.isclose(run.to_pandas("beads", "lab").mean_alpha_dot[0], 312.5 / (2 * math.pi) * run.beads[0]["mean_alpha_dot"])
+    assert set(run.to_pandas("powers")) == {"drive", "plate", "pair", "impacts"} and len(run.to_pandas("groups")) == 1
+    with pytest.raises(fs.BadInput, match="unknown table"):
+        run.to_pandas("bead")
+
+
+def test_trails(run):
+    ax = run.trajectory.plot(begin=1)
+    assert len(ax.lines) >= 2 and len(ax.patches) == 2 and "mm" in ax.get_xlabel()
+    assert ax.figure.canvas.draw() is None
+
+
+def test_what_is_wrong_is_said(pair):
+    with pytest.raises(fs.BadInput, match="nearest is radius"):
+        fs.Beads(beads=[{"raduis": "2 mm"}])
+    with pytest.raises(fs.BadInput, match="list of dictionaries"):
+        fs.Beads(frequency=12)
+    with pytest.raises(fs.BadInput, match="Beads"):
+        fs.Bead(pair.scene() + "\n")
+    with pytest.raises(fs.BadInput, match="for one bead"):
+        pair.orbit()
+    with pytest.raises(fs.BadInput, match="for one bead: festoon sweep"):
+        fs.sweep(pair, frequency=[29, 30])
+    with pytest.raises(fs.BadInput, match="shape"):
+        pair.run(start=np.zeros((3, 12)))
+    with pytest.raises(fs.BadInput):
+        fs.Beads(beads=[{}, {}]).run()  # they overlap
+    assert pair.alone(1).run(periods=4, discard=2).regime
+    assert repr(pair).startswith("Beads(beads=[{'start__phi':")
+
+
+def test_ctrl_c_keeps_the_samples(pair, monkeypatch):
+    def tell(fraction, what):
+        if fraction > 0.2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(fs.Interrupted) as stop:
+        pair.replace(run__periods=400).run(trajectory=True, progress=tell)
+    assert len(stop.value.partial) > 0

@@ -1,0 +1,131 @@
+/* world_run.c - a run of one bead in three dimensions, told as a run of a bead on the plate is. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "model/drive.h"
+#include "model/params.h"
+#include "model/surroundings.h"
+#include "model/worlds.h"
+
+#include <festoon/beads.h>
+
+/* The tolerance over run.rtol: a bead near the axis has small numbers, of which the absolute tolerance would take more
+ * than their share, and the balance of energy would show it. */
+static const double CLOSER = 0.1;
+
+/* Numbers of a run that nothing tells. */
+static void begin_result(fst_run_result *run)
+{
+    memset(run, 0, sizeof *run);
+    for (int i = 0; i < fst_result_count(); ++i) {
+        const double unknown = NAN;
+        memcpy((char *)run + fst_result_at(i)->offset, &unknown, sizeof unknown);
+    }
+    run->symmetry = FST_SYMMETRY_NONE;
+    run->never_slips = -1;
+}
+
+/* The place and the vectors on the axes that the magnet had at the time 0. */
+static void to_laboratory(const fst_groups *g, const fst_surroundings *around, double time, const double *state,
+                          fst_world_result *result)
+{
+    const fst_drive_double drive = {.omega = g->omega};
+    const fst_twofold t = {time, 0.0};
+    const double l = g->length_unit, s = g->time_unit, units[4] = {l, l / s, 1.0, 1.0 / s};
+    double whole, rest;
+    if (around)
+        rest = fst_frame_angle(around, time) / FST_TWO_PI;
+    else
+        fst_drive_turns(&drive, t, &whole, &rest);
+    for (int v = 0; v < 4; ++v) {
+        fst_drive_to_laboratory(rest, state + 3 * v, result->final_lab + 3 * v);
+        for (int k = 0; k < 3; ++k)
+            result->final_lab_si[3 * v + k] = units[v] * result->final_lab[3 * v + k];
+    }
+}
+
+static void give_reason(const fst_beads_result *beads, const fst_groups *g, fst_run_result *run)
+{
+    const fst_bead_result *bead = &beads->beads[0];
+    const double mm = 1e3 * g->length_unit, seconds = g->time_unit;
+    const size_t room = sizeof run->reason;
+    run->regime = bead->regime;
+    if (bead->regime == FST_REGIME_EJECTED || bead->regime == FST_REGIME_TOUCHED ||
+        bead->regime == FST_REGIME_LOST)
+        (void)snprintf(run->reason, room, "after %.4g s the bead %s", bead->ejected_at * seconds,
+                       bead->regime == FST_REGIME_TOUCHED ? "touched the magnet"
+                       : bead->regime == FST_REGIME_LOST  ? "was farther from the magnet than plate.radius"
+                                                          : "passed the plate's edge");
+    else if (beads->outcome == FST_BEADS_UNDECIDED) {
+        run->regime = FST_REGIME_UNDECIDED;
+        (void)snprintf(run->reason, room, "%s", beads->reason);
+    } else if (bead->regime == FST_REGIME_LEVITATING)
+        (void)snprintf(run->reason, room, "it stays, on average %.5g mm over the magnet's reference plane",
+                       bead->mean_height * mm);
+    else if (bead->regime == FST_REGIME_UNDECIDED)
+        (void)snprintf(run->reason, room,
+                       "under this drive a motion has no word of its own; the bead circles at %.4g Hz",
+                       bead->mean_alpha_dot / (FST_TWO_PI * seconds));
+    else
+        (void)snprintf(run->reason, room, "the bead circles at %.4g of the drive's rate",
+                       bead->mean_alpha_dot / beads->omega);
+}
+
+static void fill(const fst_params *params, const fst_groups *g, const fst_surroundings *around,
+                 const fst_beads_result *beads, fst_world_result *result)
+{
+    const fst_bead_result *bead = &beads->beads[0];
+    fst_run_result *run = &result->run;
+    give_reason(beads, g, run);
+    run->omega = g->omega;
+    run->frequency_hz = g->omega / (FST_TWO_PI * g->time_unit);
+    run->mean_r = bead->mean_r;
+    run->mean_alpha_dot = bead->mean_alpha_dot;
+    run->mean_load_weights = bead->mean_load_weights;
+    run->mean_friction_power = beads->plate_power;
+    run->mean_drive_power = beads->drive_power;
+    run->mean_impact_power = beads->impact_power;
+    run->energy_residual = beads->energy_residual / beads->energy_scale;
+    run->end_time = isnan(bead->ejected_at) ? beads->periods * FST_TWO_PI / g->omega : bead->ejected_at;
+    run->periods = run->end_time * g->omega / FST_TWO_PI;
+    run->window_periods = beads->periods - fst_run_discard(params);
+    run->rhs_calls = beads->rhs_calls;
+    run->accepted = beads->accepted;
+    run->rejected = beads->rejected;
+    result->mean_height = bead->mean_height;
+    result->mean_medium_power = beads->medium_power;
+    result->final_time = run->end_time;
+    memcpy(result->final_state, bead->final_state, sizeof result->final_state);
+    result->frame = around && around->laboratory ? FST_FRAME_LABORATORY : FST_FRAME_TURNING;
+    to_laboratory(g, around, run->end_time, bead->final_state, result);
+}
+
+fst_status fst_world_run(const fst_params *params, const fst_beads_options *options, fst_world_result *result,
+                         fst_error *error)
+{
+    fst_beads_result beads;
+    fst_model *model;
+    memset(result, 0, sizeof *result);
+    begin_result(&result->run);
+    fst_status status = fst_field_model_new(params, NAN, &model, error);
+    if (status != FST_OK)
+        return status;
+    const fst_groups g = fst_model_groups(model);
+    fst_surroundings made, *around = fst_key_of_surroundings(&model->params) ? &made : NULL;
+    if (around)
+        status = fst_make_surroundings(model, around, error);
+    fst_model_free(model);
+    if (status != FST_OK)
+        return status;
+    fst_params closer = *params;
+    closer.run_rtol = fmax(CLOSER * params->run_rtol, 1e-15);
+    status = fst_beads_run(&closer, 1, options, &beads, error);
+    if (status != FST_OK)
+        return status;
+    fill(params, &g, around, &beads, result);
+    fst_beads_free(&beads);
+    return FST_OK;
+}

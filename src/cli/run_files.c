@@ -1,0 +1,42 @@
+/* run_files.c - which trajectories festoon run writes, and how densely. */
+#include "cli/run_files.h"
+
+#include <string.h>
+
+static int is_csv(const char *path)
+{
+    const size_t length = path ? strlen(path) : 0;
+    return length > 4 && strcmp(path + length - 4, ".csv") == 0;
+}
+
+fst_status read_fps(const arguments *given, double gamma, double *spacing, fst_error *error)
+{
+    const char *text = option_value(given, "fps");
+    double fps;
+    if (!text)
+        return FST_OK;
+    if (!option_value(given, "output") && !option_value(given, "csv"))
+        return fail(error, FST_BAD_INPUT, "--fps", "it concerns a trajectory: give -o FILE or --csv FILE");
+    fst_status status = read_numbers("--fps", text, &fps, 1, error);
+    if (status == FST_OK && !(fps >= 0.01 && fps <= 1e7))
+        status = fail(error, FST_BAD_INPUT, "--fps", "\"%.40s\" must be a number from 0.01 to 1e7", text);
+    if (status == FST_OK)
+        *spacing = gamma / fps;
+    return status;
+}
+
+fst_status read_paths(const arguments *given, const char *paths[2], fst_shown_units units[2], fst_error *error)
+{
+    const char *csv = option_value(given, "csv");
+    fst_status status = read_units(given, &units[1], error);
+    if (status != FST_OK)
+        return status;
+    paths[0] = option_value(given, "output");
+    paths[1] = csv;
+    units[0] = !csv && is_csv(paths[0]) ? units[1] : FST_SHOWN_SCALED;
+    if (csv && !is_csv(csv))
+        return fail(error, FST_BAD_INPUT, "--csv", "the name \"%.200s\" must end in .csv", csv);
+    if (csv && paths[0] && strcmp(csv, paths[0]) == 0)
+        return fail(error, FST_BAD_INPUT, "--csv", "-o and --csv name the same file");
+    return FST_OK;
+}

@@ -1,0 +1,140 @@
+/* beads_orbit_json.c - locked states, orbits and branches of several beads as JSON. */
+#include <festoon/bead_files.h>
+
+#include "io/json.h"
+
+enum { INDENT = 2 };
+
+static void put_forces(fst_json *json, const fst_beads_locked *l)
+{
+    fst_json_open(json, "pair_forces", '[');
+    for (int k = 0; k < l->touch_count; ++k) {
+        const fst_bead_touch *touch = &l->touches[k];
+        if (touch->beads[1] < 0)
+            continue;
+        fst_json_open(json, NULL, '{');
+        fst_json_integer(json, "a", touch->beads[0]);
+        fst_json_integer(json, "b", touch->beads[1]);
+        fst_json_real(json, "force", touch->force);
+        fst_json_close(json);
+    }
+    fst_json_close(json);
+    fst_json_flag(json, "forces_unique", l->forces_unique);
+}
+
+static void put_locked(fst_json *json, const fst_beads_locked *l)
+{
+    fst_json_open(json, "beads", '[');
+    for (int i = 0; i < l->count; ++i) {
+        fst_json_open(json, NULL, '{');
+        fst_json_real(json, "r", l->r[i]);
+        fst_json_real(json, "phi_deg", l->phi_deg[i]);
+        fst_json_real(json, "z", l->height[i]);
+        fst_json_reals(json, "n", l->state[i] + 6, 3);
+        fst_json_reals(json, "w", l->state[i] + 9, 3);
+        fst_json_real(json, "load_weights", l->load_weights[i]);
+        fst_json_reals(json, "state", l->state[i], FST_BEAD_NUMBERS);
+        fst_json_close(json);
+    }
+    fst_json_close(json);
+    put_forces(json, l);
+    fst_json_real(json, "power", l->power);
+    fst_json_pairs(json, "eigenvalues", l->eigenvalue_re, l->eigenvalue_im, l->eigenvalues);
+    fst_json_flag(json, "stable", l->stable);
+    fst_json_integer(json, "free_directions", l->free);
+    fst_json_real(json, "residual", l->residual);
+}
+
+char *fst_beads_locked_json(const fst_params *scene, const fst_beads_locked *locked)
+{
+    fst_json json = fst_json_begin('{');
+    fst_json_real(&json, "omega", locked->omega);
+    fst_json_open(&json, "states", '[');
+    fst_json_open(&json, NULL, '{');
+    put_locked(&json, locked);
+    fst_json_close(&json);
+    fst_json_close(&json);
+    fst_json_scene(&json, scene);
+    return fst_json_end(&json, JSON_INDENT(INDENT));
+}
+
+static double mean(const double *values, int count)
+{
+    double sum = 0.0;
+    for (int i = 0; i < count; ++i)
+        sum += values[i];
+    return sum / count;
+}
+
+char *fst_beads_orbit_json(const fst_params *scene, const fst_beads_orbit *orbit)
+{
+    fst_json json = fst_json_begin('{');
+    fst_json_real(&json, "omega", orbit->omega);
+    fst_json_real(&json, "period", orbit->period);
+    fst_json_real(&json, "mean_r", mean(orbit->mean_r, orbit->count));
+    fst_json_real(&json, "mean_alpha_dot", mean(orbit->mean_alpha_dot, orbit->count));
+    fst_json_pairs(&json, "multipliers", orbit->multiplier_re, orbit->multiplier_im, orbit->multipliers);
+    fst_json_flag(&json, "stable", orbit->stable);
+    fst_json_text(&json, "symmetry", orbit->exchanges ? "exchange" : fst_symmetry_name(orbit->symmetry));
+    fst_json_open(&json, "beads", '[');
+    for (int i = 0; i < orbit->count; ++i) {
+        fst_json_open(&json, NULL, '{');
+        fst_json_real(&json, "mean_r", orbit->mean_r[i]);
+        fst_json_real(&json, "mean_alpha_dot", orbit->mean_alpha_dot[i]);
+        fst_json_reals(&json, "state", orbit->state[i], FST_BEAD_NUMBERS);
+        fst_json_close(&json);
+    }
+    fst_json_close(&json);
+    fst_json_open(&json, "powers", '{');
+    fst_json_real(&json, "drive", orbit->drive_power);
+    fst_json_real(&json, "plate", orbit->plate_power);
+    fst_json_real(&json, "pair", orbit->pair_power);
+    fst_json_close(&json);
+    fst_json_real(&json, "residual", orbit->residual);
+    fst_json_real(&json, "trivial_multiplier_error", orbit->trivial_error);
+    fst_json_scene(&json, scene);
+    return fst_json_end(&json, JSON_INDENT(INDENT));
+}
+
+char *fst_beads_branch_json(const fst_params *scene, const fst_beads_branch *branch)
+{
+    fst_json json = fst_json_begin('{');
+    fst_json_text(&json, "kind", fst_branch_kind_name(FST_BRANCH_LOCKED));
+    fst_json_text(&json, "parameter", branch->key);
+    fst_json_real(&json, "from", branch->from);
+    fst_json_real(&json, "to", branch->to);
+    fst_json_open(&json, "specials", '[');
+    for (size_t i = 0; i < branch->special_count; ++i) {
+        const fst_beads_special *s = &branch->specials[i];
+        fst_json_open(&json, NULL, '{');
+        fst_json_text(&json, "type", fst_special_name(s->type));
+        fst_json_text(&json, "parameter", branch->key);
+        fst_json_real(&json, "value", s->value);
+        fst_json_real(&json, "omega", s->at.omega);
+        fst_json_open(&json, "at", '{');
+        put_locked(&json, &s->at);
+        fst_json_close(&json);
+        fst_json_close(&json);
+    }
+    fst_json_close(&json);
+    fst_json_open(&json, "ends", '[');
+    for (int i = 0; i < 2; ++i) {
+        fst_json_open(&json, NULL, '{');
+        fst_json_real(&json, "value", branch->ends[i].value);
+        fst_json_text(&json, "type", fst_end_name(branch->ends[i].type));
+        fst_json_text(&json, "reason", branch->ends[i].reason);
+        fst_json_close(&json);
+    }
+    fst_json_close(&json);
+    fst_json_open(&json, "points", '[');
+    for (size_t i = 0; i < branch->point_count; ++i) {
+        fst_json_open(&json, NULL, '{');
+        fst_json_real(&json, "value", branch->values[i]);
+        fst_json_real(&json, "omega", branch->points[i].omega);
+        put_locked(&json, &branch->points[i]);
+        fst_json_close(&json);
+    }
+    fst_json_close(&json);
+    fst_json_scene(&json, scene);
+    return fst_json_end(&json, JSON_INDENT(INDENT));
+}

@@ -1,0 +1,14 @@
+/* levitation.h - places where a bead floats without a plate, in the room that looks for them and follows them. */
+#ifndef FST_ORBIT_LEVITATION_H
+#define FST_ORBIT_LEVITATION_H
+
+#include "orbit/beads_lock.h"
+
+/* Describe an equilibrium. */
+void levitation_describe(const beads_world *world, const fst_groups *g, const beads_lock *lock,
+                         fst_levitation *out);
+
+/* The world of the parameters, whose model is to be freed after it; of a bead without a plate. */
+fst_status levitation_world(const fst_params *params, fst_model **model, beads_world *world, fst_error *error);
+
+#endif

@@ -1,0 +1,115 @@
+"""Fields that stand still, drives and waves by the program: run, field --time, orbit, and what is refused in words.
+
+tests: cli/run_world.c cli/field.c cli/orbit.c io/scene.c model/coil_rows.c model/waveform.c orbit/world_orbit.c"""
+
+import json
+import math
+import os
+import unittest
+
+from sweep_tools import Case, festoon
+
+WORLDS = os.path.join(os.environ["SOURCE_DIR"], "examples", "worlds")
+IN_TESLA = ["--set", "magnet.b0=7.3mT"]
+
+
+def sets(**words):
+    return [word for key, value in words.items() for word in ("--set", f"{key.replace('__', '.')}={value}")]
+
+
+class Fields(Case):
+    def run_of(self, *words):
+        return json.loads(self.good("run", *words, "--json"))
+
+    def test_coils_roll_a_bead(self):
+        run = self.run_of(os.path.join(WORLDS, "coils.yaml"), *sets(run__duration="0.6 s"))
+        self.assertEqual(run["frame"], "laboratory")
+        self.assertLess(abs(run["energy_residual"]), 1e-10)
+        x = run["final_lab_si"][0]  # rolling, it goes 2 pi f R t, but for the slip and the field's unevenness
+        self.assertLess(abs(abs(x) / (2 * math.pi * 2 * 2.5e-3 * 0.6) - 1), 0.1)
+
+    def test_wave_drives_a_bead_backwards(self):
+        run = self.run_of(os.path.join(WORLDS, "wave.yaml"))
+        k_radius = 2 * math.pi / 60e-3 * 2.5e-3
+        wanted = -2.5e-3 * 2 * math.pi * 2 / (1 - k_radius)
+        self.assertLess(abs(run["final_lab_si"][0] / (20 * wanted) - 1), 2e-2)
+        self.assertLess(abs(run["energy_residual"]), 1e-10)
+
+    def test_field_of_the_earth(self):
+        """50 uT shift <r> of the counter-rotating bead by about 0.2 %."""
+        short = sets(run__periods=120, run__discard=60)
+        usual = self.run_of(*short)
+        run = self.run_of(os.path.join(WORLDS, "compass.yaml"), *short)
+        self.assertEqual(run["frame"], "laboratory")
+        self.assertEqual(run["regime"], usual["regime"])
+        self.assertTrue(1e-4 < abs(run["mean_r"] / usual["mean_r"] - 1) < 5e-3)
+
+    def test_frames_agree(self):
+        told = {}
+        for frame in ("turning", "laboratory"):
+            run = self.run_of(*IN_TESLA, *sets(drive__waveform="oscillating", drive__amplitude="60 deg", world__frame=frame,
+                                               run__periods=4, run__rtol=1e-13))
+            self.assertEqual(run["frame"], frame)
+            told[frame] = run["final_lab"]
+        for one, other in zip(told["turning"], told["laboratory"]):
+            self.assertAlmostEqual(one, other, delta=1e-11)
+
+    def test_field_at_a_time(self):
+        scene = os.path.join(WORLDS, "coils.yaml")
+        for time, axis in (("0", 0), ("125ms", 2)):
+            told = json.loads(self.good("field", scene, "--at", "0,0", "--time", time, "--json"))
+            b = told["b_tesla"]
+            self.assertAlmostEqual(abs(b[axis]), 4e-7 * math.pi * 200 * 2 / (2 * 0.1), delta=1e-9)
+            self.assertAlmostEqual(b[2 - axis], 0, delta=1e-9)
+        # the magnet turned by a quarter
+        one = json.loads(self.good("field", "--at", "0.5,0.2", "--json"))["b"]
+        two = json.loads(self.good("field", *sets(drive__frequency="10 Hz"), "--at", "-0.2,0.5", "--time", "25ms", "--json"))["b"]
+        for wanted, found in zip((-one[1], one[0], one[2]), two):
+            self.assertAlmostEqual(wanted, found, delta=1e-12)
+
+    def test_orbit_of_a_swinging_magnet(self):
+        words = [*sets(drive__waveform="oscillating", drive__amplitude="20 deg", drive__frequency="30 Hz",
+                       start__spin="rest", start__r=0.9, start__phi=5, run__periods=200)]
+        orbit = json.loads(self.good("orbit", *words, "--json"))
+        self.assertEqual(orbit["frame"], "turning")
+        self.assertLess(orbit["residual"], 1e-10)
+        self.assertTrue(orbit["stable"])
+        self.assertEqual(len(orbit["multipliers"]), 9)
+
+    def test_refused(self):
+        for words, wanted in (
+                (sets(**{"field__uniform[0]": "50 uT"}), "give magnet.b0"),
+                (["--set", "coils[1].radius=5 cm"], "no coils[0] before"),
+                (["--set", "coils[0].radios=5 cm"], "coils[0].radius"),
+                (["--set", "coils[0].current=5 A"], "has no radius"),
+                ([*IN_TESLA, "--set", "coils[0].radius=5 cm", "--set", "coils[0].axis[2]=0"], "no direction"),
+                ([*IN_TESLA, "--set", "coils[0].radius=5 cm", "--set", "world.frame=turning"], "is no frame"),
+                (sets(drive__waveform="table"), "two rows"),
+                (sets(drive__waveform="table", drive__table="0:0 1:90 0.5:90"), "goes back in time"),
+                (sets(drive__waveform="table", drive__table="0:0 later"), "no row of time"),
+                (sets(drive__waveform="wave"), "wave.length and wave.amplitude"),
+                (sets(drive__waveform="sine"), "choose one of steady"),
+                (sets(drive__amplitude=10), "choose oscillating"),
+                (sets(wave__ratio=1), "choose wave"),
+                (sets(plate__tilt=95), "out of range")):
+            with self.subTest(words=words):
+                self.assertIn(wanted, self.refused("run", *words))
+        pair = os.path.join(WORLDS, os.pardir, "beads", "opposite.yaml")
+        for key in ("plate.tilt=5", "world.frame=laboratory", "drive.waveform=oscillating"):
+            with self.subTest(key=key):
+                self.assertIn("time stepping knows", self.refused("run", pair, "--set", "run.method=stepping", "--set", key))
+        for command in (["locked"], ["orbit"], ["branch", "--kind", "locked", "--over", "drive.frequency=30:31"]):
+            with self.subTest(command=command):
+                self.assertIn("plate.tilt", self.refused(command[0], pair, *command[1:], "--set", "plate.tilt=5"))
+        tilted = sets(plate__tilt=5)
+        self.assertIn("plate.tilt", self.refused("orbit", *tilted, "--festoons", "2"))
+        for command in (["locked"], ["lyapunov"], ["branch", "--kind", "counter", "--over", "model.kappa=1:2"]):
+            with self.subTest(command=command):
+                self.assertIn("plate.tilt", self.refused(*command, *tilted))
+        self.assertIn("does not", self.refused("orbit", *sets(drive__waveform="chirp", drive__chirp=1)))
+        self.assertIn("no multiple", self.refused(
+            "orbit", *IN_TESLA, "--set", "coils[0].radius=5 cm", "--set", "coils[0].ac=1 A", "--set", "coils[0].frequency=3.3 Hz"))
+
+
+if __name__ == "__main__":
+    unittest.main()

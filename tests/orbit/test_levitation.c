@@ -1,0 +1,162 @@
+/* Places where a bead floats without a plate beside a tilted turning magnet: against numbers of an independent program,
+ * the formula of docs/levitation.md, and the branch's ends.
+ *
+ * tests: orbit/levitation.c orbit/levitation_branch.c model/medium.c */
+#include <festoon/beads.h>
+
+#include "physics.h"
+
+static void set(fst_params *p, const char *key, const char *value)
+{
+    fst_error error = {FST_OK, "", ""};
+    if (fst_params_set(p, key, value, &error) != FST_OK)
+        fail_msg("%s", error.sentence);
+}
+
+/* A rotor of 19 mm and a floater of 12.7 mm, 1.2 T, 7500 kg/m^3, 200 Hz, drags of 1/s. */
+static fst_params levitator(const char *tilt, const char *gravity)
+{
+    static const char *const keys[][2] = {{"magnet.shape", "parts"},
+                                          {"magnet.parts[0].kind", "sphere"},
+                                          {"magnet.parts[0].size[0]", "19 mm"},
+                                          {"magnet.parts[0].remanence[0]", "1.2 T"},
+                                          {"magnet.parts[0].rotation[2]", "-1"},
+                                          {"bead.density", "7500"},
+                                          {"bead.radius", "6.35 mm"},
+                                          {"bead.remanence", "1.2 T"},
+                                          {"drive.frequency", "200 Hz"},
+                                          {"plate.shape", "none"},
+                                          {"medium.drag_rate", "1"},
+                                          {"medium.spin_drag_rate", "1"}};
+    fst_params p = fst_default_params();
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; ++i)
+        set(&p, keys[i][0], keys[i][1]);
+    set(&p, "magnet.parts[0].rotation[0]", tilt);
+    set(&p, "plate.gravity", gravity);
+    return p;
+}
+
+/* The stable place on one side. */
+static fst_levitation place(const fst_params *p, int above)
+{
+    fst_levitation_list list;
+    fst_error error = {FST_OK, "", ""};
+    if (fst_levitation_find(p, NULL, &list, &error) != FST_OK)
+        fail_msg("%s", error.sentence);
+    fst_levitation found = {.height_mm = NAN};
+    for (size_t i = 0; i < list.count && isnan(found.height_mm); ++i)
+        if ((list.states[i].state[2] > 0) == above && list.states[i].stable)
+            found = list.states[i];
+    fst_levitation_free(&list);
+    return found;
+}
+
+static void test_heights(void **unused)
+{
+    (void)unused;
+    fst_params p = levitator("5", "9.81");
+    const fst_levitation below = place(&p, 0), above = place(&p, 1);
+    CHECK_CLOSE(below.height_mm, 25.056, 5.1e-4);
+    CHECK_CLOSE(below.tilt_deg, 6.35, 5.1e-3);
+    CHECK_CLOSE(below.circle_mm, 0.210, 5.1e-4);
+    CHECK_CLOSE(below.gap_mm, 9.2, 0.051);
+    CHECK_CLOSE(below.eigenvalue_re[0], -0.5, 0.01);
+    CHECK_CLOSE(above.height_mm, 23.021, 5.1e-4);
+    set(&p, "plate.gravity", "-9.81"); /* the same upside down */
+    CHECK_CLOSE(place(&p, 1).height_mm, below.height_mm, 1e-8);
+    set(&p, "plate.gravity", "0");
+    CHECK_CLOSE(place(&p, 1).height_mm, 23.772, 5.1e-4);
+}
+
+/* z^3 = K s^2 (1 + 12 I/(m z^2))/(2 I w^2 c), and the same without the motion of the centre. */
+static void test_formula(void **unused)
+{
+    (void)unused;
+    fst_params p = levitator("5", "0");
+    const double r[2] = {9.5e-3, 6.35e-3}, mu_0 = 4e-7 * 3.14159265358979323846, turn = 6.283185307179586;
+    const double m = 7500 * turn / 1.5 * r[1] * r[1] * r[1], inertia = 0.4 * m * r[1] * r[1], w = turn * 200;
+    double moment[2];
+    for (int i = 0; i < 2; ++i)
+        moment[i] = turn / 1.5 * r[i] * r[i] * r[i] * 1.2 / mu_0;
+    const double k = mu_0 / (2 * turn) * moment[0] * moment[1], s = cos(5 * turn / 360),
+                 c = sin(5 * turn / 360);
+    double z = cbrt(k * s * s / (2 * inertia * w * w * c));
+    CHECK_CLOSE(1e3 * z, 21.371, 5.1e-4);
+    for (int i = 0; i < 60; ++i)
+        z = cbrt(k * s * s * (1 + 12 * inertia / (m * z * z)) / (2 * inertia * w * w * c));
+    CHECK_CLOSE(1e3 * z, 23.604, 5.1e-4);
+    CHECK_CLOSE(place(&p, 1).height_mm, 1e3 * z, 0.01 * 1e3 * z);
+    set(&p, "drive.frequency", "2000 Hz"); /* and small tilts of the floater follow it closely */
+    set(&p, "magnet.parts[0].rotation[0]", "0.05");
+    const double far = 1e3 * cbrt(k * (1 + 12 * inertia / (m * 23.6e-3 * 23.6e-3)) / (2 * inertia * w * w * c));
+    CHECK_CLOSE(place(&p, 1).height_mm, far, 0.01 * far);
+}
+
+/* Drag of the turning alone makes it unstable; without any drag it is stable, one of a family. */
+static void test_drags(void **unused)
+{
+    (void)unused;
+    fst_params p = levitator("5", "-9.81");
+    fst_levitation_list list;
+    fst_error error;
+    set(&p, "medium.drag_rate", "0");
+    assert_int_equal(fst_levitation_find(&p, NULL, &list, &error), FST_OK);
+    int found = 0;
+    for (size_t i = 0; i < list.count; ++i)
+        if (fabs(list.states[i].height_mm - 25.056) < 0.01) {
+            CHECK_CLOSE(list.states[i].eigenvalue_re[0], 0.0046, 5.1e-5);
+            found = 1;
+        }
+    assert_true(found);
+    fst_levitation_free(&list);
+    set(&p, "medium.drag_rate", "0.0085");
+    assert_true(isnan(place(&p, 1).height_mm));
+    set(&p, "medium.drag_rate", "0.0095");
+    CHECK_CLOSE(place(&p, 1).height_mm, 25.056, 1e-3);
+    set(&p, "medium.drag_rate", "0");
+    set(&p, "medium.spin_drag_rate", "0");
+    const fst_levitation free = place(&p, 1);
+    assert_true(free.family && free.stable);
+    CHECK_CLOSE(free.eigenvalue_re[0], 0, 1e-5);
+}
+
+/* The least frequencies: below a fold, above a Hopf point. */
+static void test_least_frequencies(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *tilt, *gravity;
+        fst_special_type type;
+        double hertz;
+    } cases[] = {{"5", "-9.81", FST_SPECIAL_FOLD, 162.1},
+                 {"3", "-9.81", FST_SPECIAL_FOLD, 258.0},
+                 {"8", "-9.81", FST_SPECIAL_FOLD, 106.9},
+                 {"12", "-9.81", FST_SPECIAL_FOLD, 75.9},
+                 {"5", "9.81", FST_SPECIAL_HOPF, 158.8}};
+    for (int i = 0; i < 5; ++i) {
+        const fst_params p = levitator(cases[i].tilt, cases[i].gravity);
+        fst_levitation_branch branch;
+        fst_error error = {FST_OK, "", ""};
+        if (fst_levitation_follow(&p, "drive.frequency", 60, 300, NULL, &branch, &error) != FST_OK)
+            fail_msg("%s", error.sentence);
+        double nearest = INFINITY;
+        for (size_t k = 0; k < branch.special_count; ++k) {
+            const fst_levitation_special *s = &branch.specials[k];
+            if (s->type == cases[i].type && s->point.at.state[2] > 0)
+                nearest = fmin(nearest, fabs(s->point.value - cases[i].hertz));
+        }
+        CHECK_CLOSE(nearest, 0, 0.051);
+        fst_levitation_branch_free(&branch);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_heights),
+        cmocka_unit_test(test_formula),
+        cmocka_unit_test(test_drags),
+        cmocka_unit_test(test_least_frequencies),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
