@@ -14,7 +14,7 @@ extern const char fst_report_reading[];
 void fst_report_findings(FILE *out, const fst_paper_state *paper);
 /* The rules, then the claims in their groups, with their figures. */
 fst_status fst_report_statements(FILE *out, const fst_paper_state *paper, fst_error *error);
-/* The figures whose claim is `own`; then the chapter of those that have none on the page. */
+/* The figures whose claim is `own`; the second function writes the chapter of the figures without a claim. */
 fst_status fst_report_figures(FILE *out, const fst_paper_state *paper, const char *own, fst_error *error);
 fst_status fst_report_other_figures(FILE *out, const fst_paper_state *paper, fst_error *error);
 

@@ -115,7 +115,7 @@ typedef struct fst_beads_result {
     fst_beads_paradox paradox;                                 /* it ended the run, which is undecided */
     double energy_residual; /* of the whole run, per mass of the first bead */
     double energy_scale;    /* the works that it is the rest of, or the energy if that is greater */
-    int event_count;        /* of those that are listed, the first ones */
+    int event_count;        /* length of `events`, which has the first FST_BEADS_EVENTS of all */
     fst_bead_event *events;
     int64_t counts[FST_BEAD_EVENTS];
     double omega, periods;

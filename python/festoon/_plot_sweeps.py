@@ -32,7 +32,7 @@ class _Side:
         self.names: Optional[List[str]] = None
         kind, names, _ = row_of(axis.key)
         if kind == "str":
-            self.names = [name for name in names.split(", ") if name in values]  # those that were swept
+            self.names = [name for name in names.split(", ") if name in values]  # only choices that were swept
             values = np.array([self.names.index(name) for name in values])
         self.values = values.astype(float) * (1.0 if self.names else shown.factor)
         self.label, self.words = shown.label, shown.words

@@ -125,7 +125,7 @@ class Bead(Parameters):
     _params: Any
     _map: Any = None
     _made: Any = None
-    #: Keys that keywords gave, and those that a call has found from the others.
+    #: Keys that keywords gave, and keys whose values a call has found.
     _said: FrozenSet[str] = frozenset()
     _follows: FrozenSet[str] = frozenset()
 

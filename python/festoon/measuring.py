@@ -424,7 +424,7 @@ def save_points(
     path
         The file, .csv.
     measurements
-        Those that become rows.
+        The measurements that become rows.
     drives
         Hz, one for each.
 

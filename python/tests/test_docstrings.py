@@ -80,7 +80,7 @@ def test_a_property_says_its_unit(name):
 def test_a_class_says_what_it_is(name):
     kind = PUBLIC[name]
     assert inspect.getdoc(kind) and kind.__doc__ != np.ndarray.__doc__
-    if name in ("Flow", "Track"):  # those that a user makes; a Bead has the keywords of the tables
+    if name in ("Flow", "Track"):  # a user makes these; a Bead has the keywords of the tables
         wanted = set(inspect.signature(kind).parameters)
         described = section(inspect.getdoc(kind), "Parameters") or ""
         assert wanted <= {word.strip(" *") for line in described.splitlines() for word in line.split(",")}

@@ -5,7 +5,7 @@
  *
  *     dB/dt = Phi' [e x B - G (e x (x - p))] - G p'.
  *
- * The wave is that of an array of magnets under the plate (p) and one above it (q), th = k x - omega t (WORLDS.md 6):
+ * The wave is that of an array of magnets under the plate (p) and one above it (q), th = k x - omega t:
  *
  *     B = p exp(-k (z - z0)) (cos th, 0, -sin th) + q exp(k (z - z0)) (cos th, 0, sin th).
  */

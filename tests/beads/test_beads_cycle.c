@@ -2,7 +2,7 @@
  * solver of single beads, multipliers against the motion itself.
  *
  * tests: orbit/beads_cycle.c beads/manifold.c
- * labels: slow */
+ * labels: slow numbers */
 #include "some_beads.h"
 
 #include "orbit/beads_cycle.h"
