@@ -99,12 +99,15 @@ class Documentation(unittest.TestCase):
         with tempfile.TemporaryDirectory() as scratch:
             subprocess.run([FESTOON, "paper", "-o", scratch], check=True, capture_output=True)
             data = (Path(scratch) / "remanence.dat").read_text()
-        curves = [[tuple(map(float, line.split()[:2])) for line in block.splitlines() if line and line[0] != "#"]
+        # A point of the figure: its strength (a little beside it, so that bars do not hide each other), and the bracket's
+        # middle, lower and upper end.  The table prints the upper end, the least strength that was seen to suffice.
+        curves = [[tuple(map(float, line.split())) for line in block.splitlines() if line and line[0] != "#"]
                   for block in data.split("\n\n\n") if re.search(r"^# panel\d+-curve", block, re.M)]
         self.assertEqual((len(curves), len(rows)), (2, len(curves[0])))
         for column, curve in enumerate(curves):
-            for row, (strength, percent) in zip(rows, curve):
-                self.assertAlmostEqual(float(row[0]), strength)
+            for row, (strength, middle, lowest, percent) in zip(rows, curve):
+                self.assertAlmostEqual(float(row[0]), strength, delta=0.02)
+                self.assertAlmostEqual(middle, (lowest + percent) / 2, places=6)
                 self.assertEqual(row[1 + column], f"{1.5 * percent / 100:.4f}", (row, column))
 
 
