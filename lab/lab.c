@@ -132,7 +132,7 @@ EXPORT(lab_param_number) double lab_param_number(int index, int which)
     return numbers[which];
 }
 
-/* The place of a key in the table, the parts of a magnet included, or -1. */
+/* The place of a key in the table, the rows of lists included, or -1. */
 EXPORT(lab_param_find) int lab_param_find(const char *key)
 {
     return fst_param_find(key);
@@ -200,10 +200,24 @@ EXPORT(lab_value) double lab_value(const lab *l, int index)
     return integer;
 }
 
-/* The rows that say something of these parameters: those of the table, and those of the magnet's parts. */
+/* The rows that may say something of these parameters: those of the table, and behind them those of lists. */
 EXPORT(lab_row_count) int lab_row_count(const lab *l)
 {
     return fst_params_row_count(&l->params);
+}
+
+/* What a row behind the table belongs to, a coil's with the vectors; src/core.js has the same numbers. */
+enum { OF_NOTHING, OF_PART, OF_VECTOR, OF_BEAD };
+
+/* The table has rows for all parts and coils that there may be: of those that there are not, a scene says nothing. */
+EXPORT(lab_row_of) int lab_row_of(const lab *l, int index)
+{
+    const int part = fst_param_part(index);
+    if (part >= 0)
+        return part < l->params.magnet_part_count ? OF_PART : OF_NOTHING;
+    if (fst_param_bead(index) >= 0)
+        return OF_BEAD;
+    return fst_param_coil(index) < l->params.coil_count ? OF_VECTOR : OF_NOTHING;
 }
 
 /* Settle what follows from other values, as `festoon run` does, and check all together, the start included. */

@@ -2,6 +2,7 @@
 
 export const STATUS = { OK: 0, BAD_INPUT: 1, NO_MEMORY: 6, INTERRUPTED: 8 };
 const MOST_POINTS = 1e5;
+const ROW = { PART: 1, VECTOR: 2 }; /* OF_* of lab.c: what a row behind the table belongs to */
 export const STOP = { TIME: 1, EDGE: 4, LIFT_OFF: 8 }; /* FST_AT_* */
 
 /* The columns of a row of the motion: lab.c has the same names in the same order. */
@@ -209,24 +210,41 @@ export class Core {
         return Object.fromEntries(GROUP_NAMES.map((name, i) => [name, number(values[i])]));
     }
 
+    /* The value of a row, as `festoon run --json` has it; null where it was not given. */
+    plain(index, kind) {
+        const text = this.at(index);
+        return text === "" ? null : kind === "choice" || kind === "text" ? text : number(this.c.lab_value(this.bead, index));
+    }
+
     scene() {
-        const scene = Object.fromEntries(this.parameters.map((row) => {
-            const text = this.get(row.key);
-            return [row.key, text === "" ? null : row.kind === "choice" || row.kind === "text" ? text : number(this.value(row.key))];
-        }));
-        const parts = this.parts();
-        return parts.length ? { ...scene, "magnet.parts": parts } : scene;
+        const scene = Object.fromEntries(this.parameters.map((row, i) => [row.key, this.plain(i, row.kind)])), parts = this.parts();
+        if (parts.length)
+            scene["magnet.parts"] = parts;
+        for (const { key, kind, index } of this.rowsOf(ROW.VECTOR))
+            scene[key] = this.plain(index, kind);
+        return scene;
+    }
+
+    /* The rows behind the table that belong to parts of the magnet, or to vectors and coils. */
+    rowsOf(what) {
+        const rows = [];
+        for (let index = this.parameters.length; index < this.c.lab_row_count(this.bead); ++index)
+            if (this.c.lab_row_of(this.bead, index) === what)
+                rows.push({ ...this.readParameter(index), index });
+        return rows;
     }
 
     /* The parts of a real magnet, as `festoon run --json` lists them, in SI units. */
     parts() {
         const parts = [];
-        for (let i = this.parameters.length; i < this.c.lab_row_count(this.bead); ++i) {
-            const { key, kind } = this.readParameter(i), text = this.at(i), name = /\.(\w+)[^.]*$/.exec(key)[1];
-            if (kind === "choice")
-                parts.push({ [name]: text });
-            else if (text !== "")
-                (parts.at(-1)[name] ||= []).push(number(this.c.lab_value(this.bead, i)));
+        for (const { key, kind, index } of this.rowsOf(ROW.PART)) {
+            const value = this.plain(index, kind), name = /\.(\w+)[^.]*$/.exec(key)[1];
+            if (name === "kind")
+                parts.push({ kind: value });
+            else if (kind === "choice")
+                parts.at(-1)[name] = value;
+            else if (value !== null) // the kind of part has such a number
+                (parts.at(-1)[name] ||= []).push(value);
         }
         return parts;
     }
