@@ -55,7 +55,8 @@ class Beads(Bead):
     def __init__(self, scene: Any = None, *, beads: Optional[Iterable[Mapping[str, Any]]] = None, **keywords: Any) -> None:
         if isinstance(scene, (list, tuple)):
             scene, beads = None, scene
-        super().__init__(scene, **keywords, **({} if beads is None else {"beads": beads}))
+        given: Dict[str, Any] = keywords if beads is None else {**keywords, "beads": beads}
+        super().__init__(scene, **given)
 
     def _set(self, keywords: Mapping[str, Any]) -> None:
         super()._set({keyword: value for keyword, value in keywords.items() if keyword != "beads"})

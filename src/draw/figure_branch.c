@@ -405,10 +405,9 @@ static fst_status choose_axes(const fst_branch *b, fst_shown_units units, shown 
 
 static void make_title(const fst_branch *b, const shown *s, char *title, size_t size)
 {
-    static const char *const kinds[] = {[FST_BRANCH_COUNTER] = "Counter-rotating orbits",
-                                        [FST_BRANCH_LOCKED] = "Locked states",
-                                        [FST_BRANCH_ALL] = "Locked states and orbits",
-                                        [FST_BRANCH_LEVITATING] = "Places where the bead floats"};
+#define KIND_WORDS(NAME, name, doc, words) words,
+    static const char *const kinds[] = {FST_BRANCH_KINDS(KIND_WORDS)};
+#undef KIND_WORDS
     char over[128], second[128];
     const fst_scales none = {NAN, NAN, NAN, NAN};
     (void)snprintf(over, sizeof over, "%s", fst_quantity_of_parameter(b->key, FST_SHOWN_AS_GIVEN, &none).label);
