@@ -27,7 +27,8 @@ FST_API char *fst_beads_branch_json(const fst_params *scene, const fst_beads_bra
 
 /* ------------------------------------------------------------------ trajectories */
 
-/* A file into which a run of several beads streams its samples, as fst_trajectory (festoon_tools.h): it has the columns t and drive_turns; then of each bead i its twelve numbers,
+/* A file into which a run of several beads, or of one in a world, streams its samples, as fst_trajectory
+ * (festoon_tools.h): it has the columns t and drive_turns; then of each bead i its twelve numbers,
  * X_i to WZ_i, and load_i, the force on the plate; then of each pair force_i_j.  A force is NAN where the two do not touch.
  * Of more than FST_BEADS_MOST beads, which time stepping takes, a file has no pairs. */
 typedef struct fst_beads_trajectory fst_beads_trajectory;
@@ -36,6 +37,9 @@ FST_API fst_status fst_beads_trajectory_create(const char *path, const fst_param
 FST_API fst_status fst_beads_trajectory_append(fst_beads_trajectory *trajectory, const fst_beads_sample *sample,
                                                fst_error *error);
 FST_API fst_status fst_beads_trajectory_close(fst_beads_trajectory *trajectory, const fst_beads_result *result,
+                                              int complete, fst_error *error);
+/* The same, of a world. */
+FST_API fst_status fst_world_trajectory_close(fst_beads_trajectory *trajectory, const fst_world_result *result,
                                               int complete, fst_error *error);
 FST_API void fst_beads_trajectory_discard(fst_beads_trajectory *trajectory);
 
@@ -51,6 +55,7 @@ typedef struct fst_beads_table {
     fst_params scene;
     fst_bead_params *beads; /* of a scene that lists more than FST_BEADS_MOST */
     int complete;
+    int frame; /* fst_frame: of the states */
 } fst_beads_table;
 FST_API fst_status fst_beads_trajectory_read(const char *path, fst_beads_table *table, fst_error *error);
 FST_API void fst_beads_table_free(fst_beads_table *table);
@@ -58,7 +63,7 @@ FST_API void fst_beads_table_free(fst_beads_table *table);
 /* The numbers of a bead in a row of it. */
 FST_API const double *fst_beads_table_state(const fst_beads_table *table, size_t row, int bead);
 
-/* Whether the trajectory in a file is one of several beads. */
+/* Whether the trajectory in a file is such a one: of several beads, or of one in a world, which no fst_table holds. */
 FST_API fst_status fst_trajectory_has_beads(const char *path, int *has_beads, fst_error *error);
 
 #ifdef __cplusplus

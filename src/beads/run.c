@@ -104,7 +104,9 @@ static fst_status tell_sample(run *r, double t, double *y, int count, const fst_
         for (int k = 0; k < 3; ++k)
             n[k] /= norm;
     }
-    const fst_beads_sample sample = {t, t * r->world.omega / FST_TWO_PI, r->world.count, y, count, touches};
+    const double turns =
+        r->world.surrounded ? fst_magnet_turns(&r->world.around, t) : t * r->world.omega / FST_TWO_PI;
+    const fst_beads_sample sample = {t, turns, r->world.count, y, count, touches};
     ++r->sampled;
     return r->options->sample(r->options->user, &sample, error);
 }

@@ -99,7 +99,7 @@ static void fill(const fst_params *params, const fst_groups *g, const fst_surrou
     result->mean_medium_power = beads->medium_power;
     result->final_time = run->end_time;
     memcpy(result->final_state, bead->final_state, sizeof result->final_state);
-    result->frame = around && around->laboratory ? FST_FRAME_LABORATORY : FST_FRAME_TURNING;
+    result->frame = fst_frame_of_world(params);
     to_laboratory(g, around, run->end_time, bead->final_state, result);
 }
 

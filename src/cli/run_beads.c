@@ -4,43 +4,6 @@
 #include "cli/run_files.h"
 #include "cli/terminal.h"
 
-/* Where the samples go. */
-typedef struct outputs {
-    fst_beads_trajectory *files[2];
-    const char *paths[2];
-} outputs;
-
-static fst_status take_sample(void *user, const fst_beads_sample *sample, fst_error *error)
-{
-    outputs *to = user;
-    fst_status status = FST_OK;
-    for (int i = 0; i < 2 && status == FST_OK; ++i)
-        if (to->files[i])
-            status = fst_beads_trajectory_append(to->files[i], sample, error);
-    return status;
-}
-
-/* Keep the files of a finished or interrupted run, discard those of a failed one. */
-static fst_status close_files(outputs *to, fst_status status, const fst_beads_result *result, fst_error *error)
-{
-    for (int i = 0; i < 2; ++i) {
-        if (!to->files[i])
-            continue;
-        if (status != FST_OK && status != FST_INTERRUPTED) {
-            fst_beads_trajectory_discard(to->files[i]);
-            continue;
-        }
-        const int complete = status == FST_OK;
-        const fst_status closed =
-            fst_beads_trajectory_close(to->files[i], complete ? result : NULL, complete, error);
-        if (closed != FST_OK)
-            status = closed;
-        else
-            tell_written(to->paths[i], complete ? "" : " (incomplete)");
-    }
-    return status;
-}
-
 static fst_status refuse_options(const arguments *given, fst_error *error)
 {
     static const char *const of_one[] = {"ramp", "ramp-points", "ramp-wait", "ramp-disturbance"};
@@ -53,8 +16,8 @@ static fst_status refuse_options(const arguments *given, fst_error *error)
 
 fst_status run_beads(const arguments *given, const fst_params *scene, FILE *out, fst_error *error)
 {
-    outputs to = {{NULL, NULL}, {NULL, NULL}};
-    fst_shown_units units = FST_SHOWN_AS_GIVEN, of_file[2];
+    bead_outputs to = {{NULL, NULL}, {NULL, NULL}};
+    fst_shown_units units = FST_SHOWN_AS_GIVEN;
     fst_beads_result result = {.count = 0};
     fst_beads_options options = fst_default_beads_options();
     progress_line line;
@@ -63,21 +26,14 @@ fst_status run_beads(const arguments *given, const fst_params *scene, FILE *out,
     if (status == FST_OK)
         status = read_units(given, &units, error);
     if (status == FST_OK)
-        status = read_paths(given, to.paths, of_file, error);
-    if (status == FST_OK)
-        status = read_fps(given, scene->friction_gamma, &options.sample_spacing, error);
-    for (int i = 0; i < 2 && status == FST_OK; ++i)
-        if (to.paths[i])
-            status = fst_beads_trajectory_create(to.paths[i], scene, of_file[i], &to.files[i], error);
+        status = open_bead_files(given, scene, &to, &options, error);
     if (status == FST_OK) {
         options.progress = &progress;
-        options.user = &to;
-        options.sample = to.files[0] || to.files[1] ? take_sample : NULL;
         progress_begin(&line);
         status = fst_beads_run_scene(scene, &options, &result, error);
         progress_end(&line);
     }
-    status = close_files(&to, status, &result, error);
+    status = close_bead_files(&to, status, &result, NULL, error);
     if (status == FST_OK && option_value(given, "json"))
         status = print_and_free(fst_beads_json(scene, &result, units), out, error);
     else if (status == FST_OK)

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "cli/terminal.h"
+
 static int is_csv(const char *path)
 {
     const size_t length = path ? strlen(path) : 0;
@@ -39,4 +41,52 @@ fst_status read_paths(const arguments *given, const char *paths[2], fst_shown_un
     if (csv && paths[0] && strcmp(csv, paths[0]) == 0)
         return fail(error, FST_BAD_INPUT, "--csv", "-o and --csv name the same file");
     return FST_OK;
+}
+
+static fst_status take_sample(void *user, const fst_beads_sample *sample, fst_error *error)
+{
+    bead_outputs *to = user;
+    fst_status status = FST_OK;
+    for (int i = 0; i < 2 && status == FST_OK; ++i)
+        if (to->files[i])
+            status = fst_beads_trajectory_append(to->files[i], sample, error);
+    return status;
+}
+
+fst_status open_bead_files(const arguments *given, const fst_params *scene, bead_outputs *to,
+                           fst_beads_options *options, fst_error *error)
+{
+    fst_shown_units units[2];
+    *to = (bead_outputs){{NULL, NULL}, {NULL, NULL}};
+    fst_status status = read_paths(given, to->paths, units, error);
+    if (status == FST_OK)
+        status = read_fps(given, scene->friction_gamma, &options->sample_spacing, error);
+    for (int i = 0; i < 2 && status == FST_OK; ++i)
+        if (to->paths[i])
+            status = fst_beads_trajectory_create(to->paths[i], scene, units[i], &to->files[i], error);
+    options->user = to;
+    options->sample = to->files[0] || to->files[1] ? take_sample : NULL;
+    return status;
+}
+
+fst_status close_bead_files(bead_outputs *to, fst_status status, const fst_beads_result *beads,
+                            const fst_world_result *world, fst_error *error)
+{
+    for (int i = 0; i < 2; ++i) {
+        if (!to->files[i])
+            continue;
+        if (status != FST_OK && status != FST_INTERRUPTED) {
+            fst_beads_trajectory_discard(to->files[i]);
+            continue;
+        }
+        const int complete = status == FST_OK;
+        const fst_status closed =
+            world ? fst_world_trajectory_close(to->files[i], complete ? world : NULL, complete, error)
+                  : fst_beads_trajectory_close(to->files[i], complete ? beads : NULL, complete, error);
+        if (closed != FST_OK)
+            status = closed;
+        else
+            tell_written(to->paths[i], complete ? "" : " (incomplete)");
+    }
+    return status;
 }

@@ -2,13 +2,13 @@
 #include "cli/run_world.h"
 
 #include "cli/groups.h"
+#include "cli/run_files.h"
 #include "cli/terminal.h"
 
-/* What only a bead on a flat plate in air has so far. */
+/* What only a bead on a flat plate in air has. */
 static fst_status check_options(const arguments *given, const char *key, fst_error *error)
 {
-    static const char *const others[] = {"output",          "csv", "fps", "ramp", "ramp-points", "ramp-wait",
-                                         "ramp-disturbance"};
+    static const char *const others[] = {"ramp", "ramp-points", "ramp-wait", "ramp-disturbance"};
     for (size_t i = 0; i < sizeof others / sizeof *others; ++i)
         if (option_value(given, others[i]))
             return fail(error, FST_BAD_INPUT, "", "--%s is for a bead on a flat plate in air, not with %s",
@@ -67,16 +67,20 @@ fst_status run_world(const arguments *given, const fst_params *params, FILE *out
     fst_shown_units units;
     progress_line line;
     const fst_progress progress = {&line, progress_tell};
+    bead_outputs to = {{NULL, NULL}, {NULL, NULL}};
     fst_beads_options options = fst_default_beads_options();
     fst_status status = check_options(given, fst_key_of_world(params), error);
     if (status == FST_OK)
         status = read_units(given, &units, error);
-    if (status != FST_OK)
-        return status;
-    options.progress = &progress;
-    progress_begin(&line);
-    status = fst_world_run(params, &options, &result, error);
-    progress_end(&line);
+    if (status == FST_OK)
+        status = open_bead_files(given, params, &to, &options, error);
+    if (status == FST_OK) {
+        options.progress = &progress;
+        progress_begin(&line);
+        status = fst_world_run(params, &options, &result, error);
+        progress_end(&line);
+    }
+    status = close_bead_files(&to, status, NULL, &result, error);
     if (status != FST_OK)
         return status;
     if (option_value(given, "json"))

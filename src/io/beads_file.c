@@ -1,4 +1,5 @@
-/* beads_file.c - trajectories of several beads: their columns, writing and reading them. */
+/* beads_file.c - trajectories of several beads, and of one in a world, which is a list of one: their columns, writing and
+ * reading them. */
 #include <festoon/bead_files.h>
 #include <festoon/festoon_tools.h>
 
@@ -12,6 +13,7 @@
 #include "host/whole_file.h"
 #include "io/beads_text.h"
 #include "io/csv.h"
+#include "io/json.h"
 #include "io/load_hdf5.h"
 #include "io/text_table.h"
 
@@ -22,17 +24,17 @@ enum { TIMES = 2, OF_A_BEAD = FST_BEAD_NUMBERS + 1, NAME_SIZE = 32 };
 static const fst_column_info times[TIMES] = {{"t", "1/gamma", "time since the start"},
                                              {"drive_turns", "turn", "turns of the magnet since the start"}};
 static const fst_column_info of_a_bead[OF_A_BEAD] = {
-    {"X", "l", "place along the magnet's lines, turning frame"},
-    {"Y", "l", "place across the magnet's lines, turning frame"},
-    {"Z", "l", "height of the centre over the plate"},
-    {"vX", "l gamma", "laboratory velocity, component along the magnet's lines"},
-    {"vY", "l gamma", "laboratory velocity, component across the magnet's lines"},
+    {"X", "l", "place along the magnet's lines, which turn; of a run in the laboratory's frame, along its x"},
+    {"Y", "l", "place across the magnet's lines, which turn; of a run in the laboratory's frame, along its y"},
+    {"Z", "l", "height of the centre over the plate; without one, over the magnet's reference plane"},
+    {"vX", "l gamma", "laboratory velocity, component as of X"},
+    {"vY", "l gamma", "laboratory velocity, component as of Y"},
     {"vZ", "l gamma", "vertical velocity"},
-    {"nX", "1", "direction of the moment, component along the magnet's lines"},
-    {"nY", "1", "direction of the moment, component across the magnet's lines"},
+    {"nX", "1", "direction of the moment, component as of X"},
+    {"nY", "1", "direction of the moment, component as of Y"},
     {"nZ", "1", "direction of the moment, vertical component"},
-    {"WX", "gamma", "angular velocity, component along the magnet's lines"},
-    {"WY", "gamma", "angular velocity, component across the magnet's lines"},
+    {"WX", "gamma", "angular velocity, component as of X"},
+    {"WY", "gamma", "angular velocity, component as of Y"},
     {"WZ", "gamma", "angular velocity, vertical component"},
     {"load", "l gamma^2",
      "force on the plate per mass of bead 0; not a number where the bead does not touch it"}};
@@ -142,6 +144,12 @@ static fst_status begin(fst_beads_trajectory *trajectory, const char *path, int 
     return status;
 }
 
+/* How many beads the trajectories of a scene have; 0: it is one of a bead on the plate, which has files of its own. */
+static int count_beads(const fst_params *scene)
+{
+    return scene->bead_count ? scene->bead_count : fst_key_of_world(scene) != NULL;
+}
+
 static fst_status check_name(const char *path, int beads, fst_shown_units units, int *hdf5, fst_error *error)
 {
     *hdf5 = fst_ends_in(path, ".h5") || fst_ends_in(path, ".hdf5");
@@ -158,16 +166,18 @@ static fst_status check_name(const char *path, int beads, fst_shown_units units,
 fst_status fst_beads_trajectory_create(const char *path, const fst_params *scene, fst_shown_units units,
                                        fst_beads_trajectory **out, fst_error *error)
 {
-    int hdf5;
+    int hdf5 = 0;
     *out = NULL;
-    fst_status status = check_name(path, scene->bead_count, units, &hdf5, error);
+    const int beads = count_beads(scene);
+    fst_status status = beads ? check_name(path, beads, units, &hdf5, error)
+                              : fst_fail(error, FST_BAD_INPUT, path, "the scene lists no beads");
     if (status != FST_OK)
         return status;
     fst_beads_trajectory *trajectory = calloc(1, sizeof *trajectory);
     if (!trajectory)
         return no_memory(path, error);
     trajectory->scene = *scene;
-    const int listed = list_columns(scene->bead_count, &trajectory->columns);
+    const int listed = list_columns(beads, &trajectory->columns);
     trajectory->values = calloc((size_t)trajectory->columns.count, sizeof *trajectory->values);
     if (!listed || !trajectory->values || !choose_units(trajectory, units))
         status = no_memory(path, error);
@@ -221,12 +231,12 @@ fst_status fst_beads_trajectory_append(fst_beads_trajectory *trajectory, const f
     return FST_OK;
 }
 
-fst_status fst_beads_trajectory_close(fst_beads_trajectory *trajectory, const fst_beads_result *result,
-                                      int complete, fst_error *error)
+/* Close it with the line of the result, or without, and free that. */
+static fst_status close_with(fst_beads_trajectory *trajectory, int has_result, char *line, int complete,
+                             fst_error *error)
 {
     fst_status status = FST_OK;
-    char *line = result ? fst_beads_line(&trajectory->scene, result) : NULL;
-    if (result && !line) {
+    if (has_result && !line) {
         status = no_memory(trajectory->file.path, error);
     } else if (trajectory->writer) {
         status = trajectory->module->finish(trajectory->writer, line, complete, trajectory->file.stream, error);
@@ -239,6 +249,20 @@ fst_status fst_beads_trajectory_close(fst_beads_trajectory *trajectory, const fs
         status = fst_whole_file_commit(&trajectory->file, error);
     fst_beads_trajectory_discard(trajectory); /* after a commit nothing is left to remove */
     return status;
+}
+
+fst_status fst_beads_trajectory_close(fst_beads_trajectory *trajectory, const fst_beads_result *result,
+                                      int complete, fst_error *error)
+{
+    char *line = result ? fst_beads_line(&trajectory->scene, result) : NULL;
+    return close_with(trajectory, result != NULL, line, complete, error);
+}
+
+fst_status fst_world_trajectory_close(fst_beads_trajectory *trajectory, const fst_world_result *result,
+                                      int complete, fst_error *error)
+{
+    char *line = result ? fst_world_line(&trajectory->scene, result) : NULL;
+    return close_with(trajectory, result != NULL, line, complete, error);
 }
 
 void fst_beads_trajectory_discard(fst_beads_trajectory *trajectory)
@@ -310,7 +334,7 @@ fst_status fst_trajectory_has_beads(const char *path, int *has_beads, fst_error 
     head h;
     int complete;
     const fst_status status = read_head(path, &h, &scene, &complete, error);
-    *has_beads = status == FST_OK && (h.is_hdf5 ? scene.bead_count > 0 : fst_csv_of_beads(&h.text));
+    *has_beads = status == FST_OK && (h.is_hdf5 ? count_beads(&scene) > 0 : fst_csv_of_beads(&h.text));
     free_head(&h);
     return status;
 }
@@ -386,8 +410,9 @@ static fst_status find_radii(fst_beads_table *table, fst_error *error)
     if (!table->radii)
         return no_memory("beads", error);
     for (int bead = 0; bead < table->count && status == FST_OK; ++bead) {
-        fst_params alone;
-        status = fst_params_of_bead(&table->scene, bead, &alone, error);
+        fst_params alone = table->scene;
+        if (alone.bead_count)
+            status = fst_params_of_bead(&table->scene, bead, &alone, error);
         if (status == FST_OK)
             table->radii[bead] =
                 isnan(alone.model_eps) ? alone.bead_radius / alone.magnet_half_length : alone.model_eps;
@@ -426,7 +451,8 @@ fst_status fst_beads_trajectory_read(const char *path, fst_beads_table *table, f
     fst_status status = read_head(path, &h, &table->scene, &table->complete, error);
     if (status == FST_OK && !h.is_hdf5)
         status = fst_csv_comments(&h.text, 1, &table->scene, &h.beads, &h.ended, &table->complete, error);
-    table->count = table->scene.bead_count;
+    table->count = count_beads(&table->scene);
+    table->frame = fst_frame_of_world(&table->scene);
     table->beads = h.beads;
     h.beads = NULL;
     if (status == FST_OK && table->count == 0)

@@ -115,7 +115,8 @@ static fst_status check_first_line(const fst_text *text, int of_beads, fst_error
             "scaled units can be read");
     if (!of_beads && fst_csv_of_beads(text))
         return fst_fail(error, FST_BAD_INPUT, text->path,
-                        "this is a trajectory of several beads, and one of a single bead is wanted here");
+                        "this is a trajectory of several beads or of a world, and one of a bead on the plate "
+                        "is wanted here");
     if (strcmp(first, of_beads ? BEADS_LINE : FIRST_LINE) != 0)
         return fst_fail(error, FST_BAD_INPUT, text->path,
                         "this is no trajectory of festoon: it begins neither as HDF5 nor with \"%s\"",

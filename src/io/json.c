@@ -182,14 +182,20 @@ void fst_json_run(fst_json *json, const fst_params *params, const fst_run_result
     fst_json_reals(json, "final_state", result->final_state, FST_STATE_SIZE);
 }
 
+/* The text on one line. */
+static char *end_line(fst_json *json)
+{
+    char *text = fst_json_end(json, JSON_COMPACT);
+    if (text)
+        text[strlen(text) - 1] = '\0';
+    return text;
+}
+
 char *fst_result_line(const fst_params *params, const fst_run_result *result)
 {
     fst_json json = fst_json_begin('{');
     fst_json_run(&json, params, result);
-    char *text = fst_json_end(&json, JSON_COMPACT);
-    if (text)
-        text[strlen(text) - 1] = '\0';
-    return text;
+    return end_line(&json);
 }
 
 /* How the key of a number in SI ends, by the number's scaled unit. */
@@ -225,19 +231,32 @@ static void put_si(fst_json *json, const fst_params *params, const fst_run_resul
     }
 }
 
+static void put_world(fst_json *json, const fst_world_result *result)
+{
+    fst_json_reals(json, "final_state", result->final_state, FST_BEAD_NUMBERS);
+    fst_json_name(json, "frame", FST_WORDS(FST_FRAMES), result->frame);
+    fst_json_real(json, "final_time", result->final_time);
+    fst_json_reals(json, "final_lab", result->final_lab, FST_BEAD_NUMBERS);
+    fst_json_reals(json, "final_lab_si", result->final_lab_si, FST_BEAD_NUMBERS);
+    fst_json_real(json, "mean_height", result->mean_height);
+    fst_json_real(json, "mean_medium_power", result->mean_medium_power);
+}
+
+char *fst_world_line(const fst_params *params, const fst_world_result *result)
+{
+    fst_json json = fst_json_begin('{');
+    put_run(&json, params, &result->run);
+    put_world(&json, result);
+    return end_line(&json);
+}
+
 char *fst_world_json(const fst_params *params, const fst_world_result *result, fst_shown_units units)
 {
     fst_json json = fst_json_begin('{');
     put_run(&json, params, &result->run);
     if (units == FST_SHOWN_LAB || units == FST_SHOWN_SI)
         put_si(&json, params, &result->run);
-    fst_json_reals(&json, "final_state", result->final_state, FST_BEAD_NUMBERS);
-    fst_json_name(&json, "frame", FST_WORDS(FST_FRAMES), result->frame);
-    fst_json_real(&json, "final_time", result->final_time);
-    fst_json_reals(&json, "final_lab", result->final_lab, FST_BEAD_NUMBERS);
-    fst_json_reals(&json, "final_lab_si", result->final_lab_si, FST_BEAD_NUMBERS);
-    fst_json_real(&json, "mean_height", result->mean_height);
-    fst_json_real(&json, "mean_medium_power", result->mean_medium_power);
+    put_world(&json, result);
     put_groups(&json, params);
     fst_json_scene(&json, params);
     fst_json_text(&json, "version", fst_version());

@@ -2,7 +2,7 @@
 #ifndef FST_IO_JSON_H
 #define FST_IO_JSON_H
 
-#include <festoon/festoon.h>
+#include <festoon/beads.h>
 
 #include "io/json_writer.h"
 
@@ -21,5 +21,6 @@ void fst_json_run(fst_json *json, const fst_params *params, const fst_run_result
 /* The result of a run as JSON on one line, without the scene: a trajectory file holds it. free() it; NULL: no
  * memory. */
 char *fst_result_line(const fst_params *params, const fst_run_result *result);
+char *fst_world_line(const fst_params *params, const fst_world_result *result);
 
 #endif

@@ -181,9 +181,10 @@ static fst_status read_hdf5(const char *path, fst_table *table, fst_error *error
     if (status == FST_OK)
         status = fst_scene_parse(scene, strlen(scene), path, &table->params, error);
     else if (scene && fst_scene_parse(scene, strlen(scene), path, &table->params, NULL) == FST_OK &&
-             table->params.bead_count)
+             (table->params.bead_count || fst_key_of_world(&table->params)))
         status = fst_fail(error, FST_BAD_INPUT, path,
-                          "this is a trajectory of several beads, and one of a single bead is wanted here");
+                          "this is a trajectory of several beads or of a world, and one of a bead on the plate "
+                          "is wanted here");
     free(bytes);
     free(scene);
     return status;

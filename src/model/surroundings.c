@@ -95,7 +95,7 @@ fst_status fst_make_surroundings(const fst_model *model, fst_surroundings *s, fs
             error, FST_BAD_INPUT, "world.frame",
             "world.frame: turning is no frame in which %s stays what it is: choose laboratory, or auto", still);
     s->model = model;
-    s->laboratory = still || p->world_frame == FST_FRAME_LABORATORY;
+    s->laboratory = fst_frame_of_world(p) == FST_FRAME_LABORATORY;
     make_fixed(p, g, s);
     for (int i = 0; i < 3; ++i)
         s->uniform[i] = given(p->field_uniform[i]) != 0 ? p->field_uniform[i] / g->field_unit : 0.0;
@@ -233,11 +233,22 @@ void fst_place_on_magnet(const fst_surroundings *s, double t, const double x[3],
     own[2] = x[2] - u[2] * t;
 }
 
-double fst_frame_angle(const fst_surroundings *s, double t)
+/* By how much the magnet has turned. */
+static double magnet_angle(const fst_surroundings *s, double t)
 {
     fst_waveform drive = s->drive;
     (void)fst_waveform_enter(&drive, t);
-    return s->laboratory ? 0.0 : fst_waveform_angle(&drive, t);
+    return fst_waveform_angle(&drive, t);
+}
+
+double fst_magnet_turns(const fst_surroundings *s, double t)
+{
+    return magnet_angle(s, t) / FST_TWO_PI;
+}
+
+double fst_frame_angle(const fst_surroundings *s, double t)
+{
+    return s->laboratory ? 0.0 : magnet_angle(s, t);
 }
 
 double fst_frame_rate(const fst_surroundings *s, double t)

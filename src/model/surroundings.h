@@ -39,6 +39,9 @@ void fst_place_on_magnet(const fst_surroundings *s, double t, const double x[3],
 /* By how much the axes of the frame have turned since the time 0, in radians. */
 double fst_frame_angle(const fst_surroundings *s, double t);
 
+/* The turns of the magnet since the time 0. */
+double fst_magnet_turns(const fst_surroundings *s, double t);
+
 /* The rate at which the axes of the frame turn. */
 double fst_frame_rate(const fst_surroundings *s, double t);
 

@@ -29,6 +29,12 @@ const char *fst_stands_still(const fst_params *p)
     return NULL;
 }
 
+int fst_frame_of_world(const fst_params *p)
+{
+    return fst_stands_still(p) || p->world_frame == FST_FRAME_LABORATORY ? FST_FRAME_LABORATORY
+                                                                         : FST_FRAME_TURNING;
+}
+
 const char *fst_key_of_surroundings(const fst_params *p)
 {
     const char *still = fst_stands_still(p);

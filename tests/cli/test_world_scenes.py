@@ -1,6 +1,6 @@
 """Worlds by the program: their scenes, what run and locked tell of them, and what is refused in words.
 
-tests: cli/run_world.c cli/init.c beads/world_run.c"""
+tests: cli/run_world.c cli/run_files.c cli/init.c beads/world_run.c"""
 
 import json
 import math
@@ -45,6 +45,30 @@ class Worlds(Case):
         self.assertAlmostEqual(best["height_mm"], 25.056, delta=2e-2)
         self.assertEqual(len(best["eigenvalues_per_s"]), 11)
         self.assertAlmostEqual(math.hypot(*best["n"]), 1, delta=1e-12)
+
+    def test_trajectories(self):
+        for name, frame in (("levitation", "turning"), ("compass", "laboratory"), ("wave", "laboratory")):
+            words = ("run", self.scene(name), "--set", "run.duration=0.1", "--json")
+            plain = json.loads(self.good(*words))
+            path = self.path(name + ".csv")
+            told = json.loads(self.good(*words, "--csv", path, "-o", self.path(name + ".h5"), "--fps", "100"))
+            self.assertEqual(told["frame"], frame)
+            with open(path, encoding="utf-8") as file:
+                lines = file.read().splitlines()
+            table = [line.split(",") for line in lines if not line.startswith("#")]
+            self.assertEqual((len(table), table[0][2], table[0][-1]), (12, "X_0 [l]", "load_0 [l gamma^2]"))
+            last = [float(cell) for cell in table[-1][:14]]
+            self.assertAlmostEqual(last[0], told["final_time"], delta=1e-9 * told["final_time"])
+            # the magnet's turns: a wave has none
+            self.assertAlmostEqual(last[1], 0 if name == "wave" else 0.1 * told["frequency_hz"], delta=1e-9)
+            for one, other in zip(last[2:], told["final_state"]):
+                self.assertAlmostEqual(one, other, delta=1e-8 * max(1, abs(other)))
+            result = json.loads(next(line for line in lines if line.startswith("# result = "))[11:])
+            self.assertEqual(result["frame"], frame)
+            for key in ("regime", "final_lab"):
+                self.assertEqual(result[key], told[key])
+            if frame == "laboratory":  # samples change nothing
+                self.assertEqual(plain["final_lab"], told["final_lab"])
 
     def test_bowl_and_water(self):
         for name in ("bowl", "water"):

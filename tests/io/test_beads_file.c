@@ -130,6 +130,48 @@ static void a_long_list(void **unused)
     assert_int_equal(rmdir(directory), 0);
 }
 
+/* A world is a list of one: its file says the frame, and is none of a bead on the plate. */
+static void of_a_world(void **unused)
+{
+    (void)unused;
+    static const char *const texts[] = {"medium: {density: 1000}\n", "plate: {tilt: 1}\nmagnet: {b0: 7 mT}\n"};
+    static const char *const names[] = {"world.h5", "world.csv"};
+    char directory[] = "/tmp/festoon-beads-XXXXXX", path[64];
+    assert_non_null(mkdtemp(directory));
+    for (int i = 0; i < 4; ++i) {
+        fst_params scene = fst_default_params();
+        fst_beads_trajectory *trajectory;
+        fst_beads_table table;
+        fst_table single;
+        fst_error error;
+        int has_beads = 0;
+        double state[FST_BEAD_NUMBERS];
+        assert_int_equal(fst_scene_parse(texts[i % 2], strlen(texts[i % 2]), "w.yaml", &scene, NULL), FST_OK);
+        (void)snprintf(path, sizeof path, "%s/%s", directory, names[i / 2]);
+        for (int k = 0; k < FST_BEAD_NUMBERS; ++k)
+            state[k] = number(0, 0, k);
+        const fst_beads_sample sample = {0.25, 0.5, 1, state, 1, &(fst_bead_touch){{0, -1}, 3.0}};
+        assert_int_equal(fst_beads_trajectory_create(path, &scene, FST_SHOWN_SCALED, &trajectory, NULL),
+                         FST_OK);
+        assert_int_equal(fst_beads_trajectory_append(trajectory, &sample, NULL), FST_OK);
+        assert_int_equal(fst_world_trajectory_close(trajectory, NULL, 1, NULL), FST_OK);
+        if (fst_beads_trajectory_read(path, &table, &error) != FST_OK)
+            fail_msg("%s: %s", names[i / 2], error.sentence);
+        assert_true(table.count == 1 && table.rows == 1 && table.complete);
+        assert_int_equal(table.frame, i % 2 ? FST_FRAME_LABORATORY : FST_FRAME_TURNING);
+        assert_memory_equal(fst_beads_table_state(&table, 0, 0), state, sizeof state);
+        CHECK_SAME_BITS(table.touches[0].force, 3.0);
+        CHECK_CLOSE(table.radii[0], 2.5 / 23.0, 1e-15);
+        fst_beads_table_free(&table);
+        assert_int_equal(fst_trajectory_has_beads(path, &has_beads, NULL), FST_OK);
+        assert_int_equal(has_beads, 1);
+        assert_int_equal(fst_trajectory_read(path, &single, &error), FST_BAD_INPUT);
+        assert_non_null(strstr(error.sentence, "of a world"));
+        assert_int_equal(unlink(path), 0);
+    }
+    assert_int_equal(rmdir(directory), 0);
+}
+
 /* The line of a CSV is changed by hand. */
 static void refused(void **unused)
 {
@@ -154,6 +196,10 @@ static void refused(void **unused)
     assert_int_equal(fst_beads_trajectory_read(path, &table, &error), FST_BAD_INPUT);
     assert_non_null(strstr(error.sentence, "times rise"));
     assert_int_equal(fst_beads_trajectory_read("/nowhere/x.h5", &table, &error), FST_BAD_INPUT);
+    const fst_params flat = fst_default_params();
+    assert_int_equal(fst_beads_trajectory_create(path, &flat, FST_SHOWN_SCALED, &trajectory, &error),
+                     FST_BAD_INPUT);
+    assert_non_null(strstr(error.sentence, "lists no beads"));
     many.bead_count = 100;
     assert_int_equal(fst_beads_trajectory_create(path, &many, FST_SHOWN_SCALED, &trajectory, &error),
                      FST_BAD_INPUT);
@@ -165,6 +211,6 @@ static void refused(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(come_back), cmocka_unit_test(a_long_list),
-                                       cmocka_unit_test(refused)};
+                                       cmocka_unit_test(of_a_world), cmocka_unit_test(refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
