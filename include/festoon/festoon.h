@@ -344,6 +344,9 @@ FST_API double fst_bead_mass(const fst_params *params);
 /* The bead's magnetic moment in A m^2, of whatever tells it (params.def); NAN: nothing does. */
 FST_API double fst_bead_moment(const fst_params *params);
 
+/* B0 in T, the unit of scaled fields; NaN: the scene does not tell it.  It needs no memory, so that units never fail. */
+FST_API double fst_field_scale(const fst_params *params);
+
 /* "rigid", "farago2020" */
 FST_API const char *fst_dynamics_name(fst_dynamics dynamics);
 

@@ -34,12 +34,8 @@ fst_scales fst_scales_of(const fst_params *params)
         .length = params->magnet_half_length,
         .time = 1.0 / params->friction_gamma,
         .mass = fst_bead_mass(params),
-        .field = NAN,
+        .field = fst_field_scale(params),
     };
-    fst_model *model = NULL;
-    if (fst_field_model_new(params, NAN, &model, NULL) == FST_OK)
-        scales.field = fst_model_groups(model).field_unit;
-    fst_model_free(model);
     return scales;
 }
 

@@ -51,6 +51,26 @@ double fst_field_unit(const fst_params *p)
     return isnan(p->magnet_b0) && fst_magnet_in_tesla(p) ? FST_PARTS_FIELD_UNIT : p->magnet_b0;
 }
 
+double fst_kappa_and_field(const fst_params *params, double *field)
+{
+    fst_params room;
+    const fst_params *p = fst_params_settled(params, &room);
+    const double unit = fst_moment_unit(p), moment = fst_given_moment(p);
+    *field = fst_field_unit(p);
+    if (!isnan(moment) && !isnan(*field))
+        return moment * *field / unit;
+    if (!isnan(moment) && moment > 0)
+        *field = p->model_kappa * unit / moment;
+    return p->model_kappa;
+}
+
+double fst_field_scale(const fst_params *params)
+{
+    double field;
+    (void)fst_kappa_and_field(params, &field);
+    return field;
+}
+
 double fst_bead_moment(const fst_params *params)
 {
     fst_params room;

@@ -12,17 +12,9 @@
 
 #include "model/tangent.inl"
 
-/* kappa: model.kappa, unless moment and B0 are both given.  Of moment, B0 and kappa two give the third; beside
- * a real magnet B0 is there already, and of moment and kappa one gives the other. */
 static void set_strength(const fst_params *p, fst_groups *g)
 {
-    const double unit = fst_moment_unit(p), moment = fst_given_moment(p);
-    g->kappa = p->model_kappa;
-    g->field_unit = fst_field_unit(p);
-    if (!isnan(moment) && !isnan(g->field_unit))
-        g->kappa = moment * g->field_unit / unit;
-    else if (!isnan(moment) && moment > 0)
-        g->field_unit = g->kappa * unit / moment;
+    g->kappa = fst_kappa_and_field(p, &g->field_unit);
     if (p->bead_material == FST_MATERIAL_PARAMAGNETIC)
         g->kappa = 0.0;
     g->a = p->bead_material == FST_MATERIAL_HARD ? 0.0 : p->bead_a;

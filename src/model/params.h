@@ -49,6 +49,11 @@ double fst_moment_unit(const fst_params *params);
 /* B0 in T, if magnet.b0 or the kind of magnet gives it; else NAN. */
 double fst_field_unit(const fst_params *params);
 
+/* kappa of a hard bead, and B0 in T (NAN: not known).  kappa is model.kappa, unless moment and B0 are both given: of
+ * moment, B0 and kappa two give the third; beside a real magnet B0 is there already, and of moment and kappa one gives
+ * the other. */
+double fst_kappa_and_field(const fst_params *params, double *field);
+
 /* What must be chosen so that `key` plays a part ("paramagnetic or mixed"), and of which key, *of
  * (bead.material); NULL: it does. */
 const char *fst_param_missing_choice(const fst_params *params, const char *key, const char **of);
