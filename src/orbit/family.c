@@ -260,6 +260,10 @@ static fst_status model_at(const fst_family *family, double value, fst_model *ou
 
 fst_status fst_family_setup(const fst_family *family, double value, fst_setup *setup, fst_error *error)
 {
+    if (family->made && family->made_at == value) {
+        *setup = *family->made;
+        return FST_OK;
+    }
     memset(setup, 0, sizeof *setup);
     fst_status status = model_at(family, value, &setup->model, error);
     setup->watch = family->watch;

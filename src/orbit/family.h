@@ -12,6 +12,8 @@ enum {
     FST_BUNDLE_SIZE = FST_STATE_SIZE * (1 + FST_COLUMNS)
 };
 
+struct fst_setup;
+
 /* The setups that differ in one parameter. */
 typedef struct fst_family {
     fst_params params;
@@ -22,6 +24,8 @@ typedef struct fst_family {
     double location;  /* value of a test at which a special point counts as found */
     const fst_lapack *lapack;
     fst_watch *watch; /* NULL: no reports, and the work cannot be stopped */
+    const struct fst_setup *made; /* a setup that was made already, of the value `made_at` (NULL: none) */
+    double made_at;
 } fst_family;
 
 /* One of them: the world, and two neighbours for the derivative by the parameter.  The drive's omega

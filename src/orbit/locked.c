@@ -78,7 +78,7 @@ typedef struct found_state {
 } found_state;
 
 typedef struct finder {
-    const fst_family *family;
+    fst_family family; /* which has the setup at `value` once, for every start asks for it */
     double value;
     double searching; /* the share of the progress that the search takes */
     found_state *found;
@@ -111,7 +111,7 @@ static int is_possible(const finder *f, const fst_solution *s)
     fst_setup setup;
     fst_error ignored;
     fst_pull_double pull;
-    if (fst_family_setup(f->family, s->value, &setup, &ignored) != FST_OK)
+    if (fst_family_setup(&f->family, s->value, &setup, &ignored) != FST_OK)
         return 0;
     const fst_world_double *c = &setup.model.world;
     if (hypot(s->y[0][FST_X], s->y[0][FST_Y]) > setup.model.groups.map_radius)
@@ -124,7 +124,7 @@ static int is_possible(const finder *f, const fst_solution *s)
 static int settle(finder *f, fst_solution *s)
 {
     fst_error ignored;
-    return fst_solution_correct(f->family, s, NULL, &ignored) == FST_OK &&
+    return fst_solution_correct(&f->family, s, NULL, &ignored) == FST_OK &&
            hypot(s->y[0][FST_X], s->y[0][FST_Y]) < 4.0 * FST_LARGEST_RADIUS && is_possible(f, s);
 }
 
@@ -132,11 +132,13 @@ static int settle(finder *f, fst_solution *s)
 static fst_status try_starts(finder *f, int starts, fst_error *error)
 {
     fst_setup setup;
-    fst_status status = fst_family_setup(f->family, f->value, &setup, error);
+    fst_status status = fst_family_setup(&f->family, f->value, &setup, error);
+    f->family.made = &setup;
+    f->family.made_at = f->value;
     for (int i = 1; i <= starts && status == FST_OK; ++i) {
         fst_solution s;
-        fst_watch_reach(f->family->watch, f->searching * i / starts);
-        status = fst_watch_count(f->family->watch, 0, error);
+        fst_watch_reach(f->family.watch, f->searching * i / starts);
+        status = fst_watch_count(f->family.watch, 0, error);
         memset(&s, 0, sizeof s);
         s.value = f->value;
         start_at(&setup, i, s.y[0]);
@@ -148,7 +150,8 @@ static fst_status try_starts(finder *f, int starts, fst_error *error)
         if (settle(f, &image))
             note(f, &image, 0);
     }
-    return status == FST_OK ? fst_watch_count(f->family->watch, 0, error) : status;
+    f->family.made = NULL;
+    return status == FST_OK ? fst_watch_count(f->family.watch, 0, error) : status;
 }
 
 static fst_status find_all(const fst_family *family, double value, int starts, double searching, finder *f,
@@ -156,7 +159,7 @@ static fst_status find_all(const fst_family *family, double value, int starts, d
 {
     memset(f, 0, sizeof *f);
     f->searching = searching;
-    f->family = family;
+    f->family = *family;
     f->value = value;
     f->found = calloc(MOST, sizeof *f->found);
     if (!f->found)

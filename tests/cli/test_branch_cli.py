@@ -143,7 +143,7 @@ class BadInput(unittest.TestCase):
     def test_a_branch_without_points_is_not_drawn(self):
         with tempfile.TemporaryDirectory() as directory:
             path, figure = os.path.join(directory, "b.json"), os.path.join(directory, "f.svg")
-            self.assertEqual(branch("--kind", "locked", "--over", "model.kappa=1:1.1", "-o", path)[0], 0)
+            self.assertEqual(branch("--kind", "counter", "--over", "drive.omega=0.3:0.31", "-o", path)[0], 0)
             with open(path, encoding="utf-8") as text:
                 whole = json.load(text)
             self.assertTrue(whole["points"])

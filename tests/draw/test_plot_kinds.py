@@ -41,22 +41,28 @@ def read_csv(path):
     return dict(zip(names, zip(*[[float(x) for x in row] for row in rows[1:]]))), dict(zip(names, units))
 
 
+SCRATCH = tempfile.TemporaryDirectory()
+
+
+def tearDownModule():
+    SCRATCH.cleanup()
+
+
 class Case(unittest.TestCase):
+    folder = Path(SCRATCH.name)
+
     @classmethod
     def setUpClass(cls):
-        cls.scratch = tempfile.TemporaryDirectory()
-        cls.folder = Path(cls.scratch.name)
+        """What the figures are drawn of, made once for all."""
+        if (cls.folder / "t.csv").exists():
+            return
         short = ("--set", "run.periods=12", "--set", "run.discard=4")
         good("run", *short, "-o", cls.folder / "t.csv")
         good("run", *short, "--ramp", "9:12", "--ramp-wait", "0", "-o", cls.folder / "ramp.csv")
         good("run", *short, "--set", "drive.frequency=2Hz", "--set", "start.spin=rest", "-o", cls.folder / "slow.csv")
         good("branch", "--kind", "locked", "--over", "drive.frequency=4Hz:9Hz", "-o", cls.folder / "locked.json")
         good("branch", "--kind", "counter", "--over", "drive.omega=0.25:0.29", "-o", cls.folder / "counter.json")
-        cls.columns, _ = read_csv(cls.folder / "t.csv")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.scratch.cleanup()
+        Case.columns, _ = read_csv(cls.folder / "t.csv")
 
     def plot(self, name, *words):
         """The texts of the figure in one line, its script, and its blocks of numbers."""

@@ -1,0 +1,11 @@
+"""A sample of tests/reliability/whole.py: each command at 40 places or fewer, the fewer the longer it takes.
+
+tests: host/printed.c io/json_writer.c sweep/export.c cli/program.c cli/terminal.c
+labels: long"""
+
+import os
+import subprocess
+import sys
+
+SCRIPT = os.path.join(os.environ["SOURCE_DIR"], "tests", "reliability", "whole.py")
+sys.exit(subprocess.run([sys.executable, "-B", SCRIPT, "--places", "40"], stdin=subprocess.DEVNULL).returncode)
