@@ -23,7 +23,7 @@ typedef struct fst_family {
     double residual;  /* at which a solution counts as found */
     double location;  /* value of a test at which a special point counts as found */
     const fst_lapack *lapack;
-    fst_watch *watch; /* NULL: no reports, and the work cannot be stopped */
+    fst_watch *watch;             /* NULL: no reports, and the work cannot be stopped */
     const struct fst_setup *made; /* a setup that was made already, of the value `made_at` (NULL: none) */
     double made_at;
 } fst_family;

@@ -1,4 +1,5 @@
-"""Numbers of `festoon paper` computed otherwise: tests that test_paper.py runs on its one run of the paper.
+"""Numbers of `festoon paper` computed otherwise: tests that test_paper_reduced_long.py runs on its one run of the
+paper.
 
 A motion is integrated by bead_by_hand.py, in another frame and by another method; the field is that of the ten charges.
 """

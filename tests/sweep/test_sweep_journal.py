@@ -166,9 +166,10 @@ def long_sweep(points):
     return SHORT + ["--over", f"drive.frequency=9Hz:20Hz:{points}", "--threads", "2"]
 
 
-def begin(case, name, points=3000):
+def begin(case, name):
     """Starts a sweep and stops it when it has its first rows; returns it and its number of points, which is raised
     until the program is still at work when it is stopped."""
+    points = int(1500 / float(os.environ.get("FESTOON_SHORTER", "1")))
     while points < 3000000:
         process = subprocess.Popen([FESTOON, "sweep", *long_sweep(points), "-o", case.path(name)],
                                    stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
