@@ -294,6 +294,20 @@ FST_API fst_status fst_levitation_find(const fst_params *params, const fst_progr
                                        fst_levitation_list *list, fst_error *error);
 FST_API void fst_levitation_free(fst_levitation_list *list);
 
+/* Of the places on one side of the magnet, above it or where the weight pulls, the first stable one, or else that where a
+ * disturbance grows least; NULL: there is none. */
+FST_API const fst_levitation *fst_levitation_best(const fst_params *params, const fst_levitation_list *list,
+                                                  int above);
+
+/* What becomes of a bead at such a place, or at none. */
+#define FST_FLOATINGS(ROW)                                                                                     \
+    ROW(FLOATS_NOWHERE, "none", "there is no place", GREY)                                                     \
+    ROW(FLOATS_STABLY, "stable", "it stays", TEAL)                                                             \
+    ROW(FLOATS_OSCILLATING, "oscillates", "a swing about the place grows", ORANGE)                             \
+    ROW(FLOATS_AWAY, "leaves", "it goes away without a swing", VERMILION)
+typedef enum { FST_FLOATINGS(FST_ROW_ENUM) FST_FLOATING_COUNT } fst_floating;
+FST_API fst_floating fst_levitation_word(const fst_levitation *place);
+
 /* The same places over one parameter. */
 typedef struct fst_levitation_point {
     double value; /* of the parameter */

@@ -297,6 +297,7 @@ typedef struct fst_sweep_options {
     int refine;
     const char *refine_by;
     double refine_step;
+    int levitation; /* rows tell where the bead floats, fst_grid_ask_levitation(), and nothing is run */
 } fst_sweep_options;
 FST_API fst_sweep_options fst_default_sweep_options(void);
 
@@ -313,6 +314,9 @@ FST_API fst_sweep_options fst_default_sweep_options(void);
  */
 FST_API fst_status fst_sweep(const fst_params *params, const char *path, const fst_sweep_options *options,
                              fst_sweep_counts *counts, fst_error *error);
+
+/* The scaled unit of a key of rows; "1" for a name or a pure number. */
+FST_API const char *fst_sweep_key_unit(const char *key);
 
 typedef enum { FST_EXPORTS(FST_ROW_ENUM) FST_EXPORT_COUNT } fst_export_format;
 

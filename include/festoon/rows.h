@@ -26,6 +26,15 @@ FST_API fst_status fst_grid_new(const fst_params *base, const char *const *axes,
                                 fst_grid **grid, fst_error *error);
 FST_API void fst_grid_free(fst_grid *grid);
 
+/* What the rows of a sweep over a grid tell: runs of a bead on the plate, which fst_rows() does too; runs of the beads
+ * that the scene lists; runs where a point has a world (fst_key_of_world()), so that a bead needs three dimensions; or,
+ * asked for, where a bead floats (fst_levitation_find() of beads.h). */
+typedef enum { FST_ROWS_OF_RUNS, FST_ROWS_OF_BEADS, FST_ROWS_OF_WORLDS, FST_ROWS_OF_LEVITATION } fst_row_kind;
+FST_API fst_row_kind fst_grid_row_kind(const fst_grid *grid);
+
+/* Ask for the last.  FST_BAD_INPUT: it is one of several beads, or has a plate. */
+FST_API fst_status fst_grid_ask_levitation(fst_grid *grid, fst_error *error);
+
 FST_API int64_t fst_grid_points(const fst_grid *grid);
 FST_API int fst_grid_axis_count(const fst_grid *grid);
 FST_API const fst_params *fst_grid_base(const fst_grid *grid);

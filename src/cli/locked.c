@@ -93,7 +93,8 @@ static fst_status find_levitation(const arguments *given, const fst_params *para
         const fst_levitation *l = &list.states[i];
         (void)fprintf(out, "%12.5f %12.5f %12.5f %12.5f %16.6g  %s, %s the magnet\n", l->height_mm, l->gap_mm,
                       l->tilt_deg, l->circle_mm, unsigned_zero(l->eigenvalue_re[0], ALL_DIGITS),
-                      l->stable ? "stable" : "unstable", l->state[2] > 0 ? "above" : "below");
+                      l->stable ? "stable" : "unstable",
+                      l->state[2] * (params->plate_gravity < 0 ? -1.0 : 1.0) > 0 ? "above" : "below");
     }
     if (list.count && list.states[0].family)
         (void)fprintf(

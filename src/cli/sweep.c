@@ -16,6 +16,8 @@ static const option options[] = {
      "compute every 2^N-th value of each LO:HI:COUNT first, then N times between where the regime changes"},
     {"refine-by", '\0', "KEY[:STEP]",
      "refine where KEY changes instead: regime, symmetry, or a number that changes by more than STEP"},
+    {"levitation", '\0', NULL,
+     "rows tell where the bead floats below and above the magnet (festoon locked), not what a run does"},
     {"threads", '\0', "N", "number of threads (as many as this process has processors)"},
     {"seed", '\0', "N", "seed of the random values (1)"},
     {"portable", '\0', NULL,
@@ -75,6 +77,7 @@ static fst_status read_sweep(const arguments *given, const char **axes, char key
     sweep->lanes = (int)lanes;
     if (status == FST_OK)
         status = read_refining(given, key, sweep, error);
+    sweep->levitation = option_value(given, "levitation") != NULL;
     if (option_value(given, "portable"))
         sweep->arithmetic = FST_ARITHMETIC_PORTABLE;
     const char *arithmetic = option_value(given, "arithmetic");
@@ -271,7 +274,9 @@ const command sweep_command = {
         "agree;\n"
         "what is smaller than 2^N points may be missed.  Another N goes on with the same file.  Rows of a "
         "scene that\n"
-        "lists beads have outcome, the largest group, powers and counts of events.\n",
+        "lists beads have outcome, the largest group, powers and counts of events; those of a bead in a world "
+        "(no\n"
+        "plate, a bowl, a medium, coils, other drives) the frame, the mean height and the balance of energy.\n",
     .options = options,
     .most_operands = 1,
     .perform = perform,

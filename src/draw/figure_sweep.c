@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 
-enum { MOST_KEYS = 8 };
+enum { MOST_KEYS = 8, USUAL = 4 };
 
 /* The axes that vary, one or two. */
 static fst_status axes_of(const fst_grid *grid, const char *path, fst_shown_units units,
@@ -23,11 +23,27 @@ static fst_status axes_of(const fst_grid *grid, const char *path, fst_shown_unit
     return FST_OK;
 }
 
+/* The keys that are shown unless others are asked for; returns how many. */
+static int choose_keys(fst_row_kind kind, int varied, const char *keys[USUAL])
+{
+    static const char *const curves[][USUAL] = {
+        [FST_ROWS_OF_RUNS] = {"mean_r", "std_r", "mean_alpha_dot", "regime"},
+        [FST_ROWS_OF_BEADS] = {"mean_r", "std_r", "mean_alpha_dot", "regime"},
+        [FST_ROWS_OF_WORLDS] = {"mean_r", "mean_alpha_dot", "regime"},
+        [FST_ROWS_OF_LEVITATION] = {"below_height_mm", "below_growth_per_s", "above_height_mm",
+                                    "above_growth_per_s"}};
+    const int is_map = varied == 2;
+    int count = 0;
+    for (; count < USUAL && curves[kind][count] && !is_map; ++count)
+        keys[count] = curves[kind][count];
+    if (is_map)
+        keys[count++] = kind == FST_ROWS_OF_LEVITATION ? "below" : "regime";
+    return count;
+}
+
 fst_status fst_figure_sweep(const char *path, const char *const *keys, int count, fst_shown_units units,
                             const char *out, fst_error *error)
 {
-    static const char *const curves[] = {"mean_r", "std_r", "mean_alpha_dot", "regime"};
-    static const char *const map[] = {"regime"};
     fst_sweep_axis axes[FST_AXIS_LIMIT];
     fst_sweep_quantity quantities[MOST_KEYS];
     int varied;
@@ -43,8 +59,10 @@ fst_status fst_figure_sweep(const char *path, const char *const *keys, int count
     if (status == FST_OK && count > MOST_KEYS)
         status = fst_fail(error, FST_BAD_INPUT, "fst_figure_sweep.keys", "a figure shows at most %d keys",
                           MOST_KEYS);
-    const char *const *shown = count > 0 ? keys : varied == 1 ? curves : map;
-    const int shown_count = count > 0 ? count : varied == 1 ? 4 : 1;
+    const char *usual[USUAL];
+    const int usual_count = choose_keys(fst_grid_row_kind(grid), varied, usual);
+    const char *const *shown = count > 0 ? keys : usual;
+    const int shown_count = count > 0 ? count : usual_count;
     for (int i = 0; i < shown_count && status == FST_OK; ++i)
         status = fst_sweep_quantity_of(grid, shown[i], units, &quantities[i], error);
     fst_grid_free(grid);

@@ -1,6 +1,8 @@
 /* figure_sweep_axes.c - axes and keys of a sweep, converted into the units that the figure shows. */
 #include "draw/figure_sweep_axes.h"
 
+#include <festoon/beads.h>
+
 #include "base/error.h"
 
 #include <math.h>
@@ -118,9 +120,12 @@ void fst_sweep_about(const fst_sweep_table *table, char *about, size_t size)
     (void)snprintf(about + strlen(about), size - strlen(about), "%lld", (long long)table->rows);
     if (!whole)
         (void)snprintf(about + strlen(about), size - strlen(about), " of %lld", (long long)points);
-    (void)snprintf(about + strlen(about), size - strlen(about), " runs of %s%g turns of the magnet%s",
-                   base->run_until == FST_UNTIL_SETTLED ? "at most " : "", base->run_periods,
-                   whole ? "" : " (interrupted)");
+    if (fst_grid_row_kind(grid) == FST_ROWS_OF_LEVITATION)
+        (void)snprintf(about + strlen(about), size - strlen(about), " points%s", whole ? "" : " (interrupted)");
+    else
+        (void)snprintf(about + strlen(about), size - strlen(about), " runs of %s%g turns of the magnet%s",
+                       base->run_until == FST_UNTIL_SETTLED ? "at most " : "", fst_run_periods(base),
+                       whole ? "" : " (interrupted)");
     if (table->refine)
         (void)snprintf(about + strlen(about), size - strlen(about), " at %.3g %% of %lld points",
                        100.0 * (double)table->rows / (double)points, (long long)points);
@@ -158,30 +163,44 @@ void fst_sweep_choice_tics(const fst_sweep_axis *axis, char *tics, size_t size)
     (void)snprintf(tics + used, size - used, ")");
 }
 
+#define COLOUR(NAME, name, doc, colour) FST_COLOUR_##colour,
+static const fst_colour regime_colours[] = {FST_REGIMES(COLOUR)}, floating_colours[] = {FST_FLOATINGS(COLOUR)};
+#undef COLOUR
+
+const fst_sweep_names *fst_sweep_names_of(const char *key)
+{
+    static const fst_sweep_names regimes = {FST_REGIME_COUNT, FST_WORDS(FST_REGIMES), regime_colours},
+                                 floating = {FST_FLOATING_COUNT, FST_WORDS(FST_FLOATINGS), floating_colours};
+    return strcmp(key, "regime") == 0                               ? &regimes
+           : strcmp(key, "below") == 0 || strcmp(key, "above") == 0 ? &floating
+                                                                    : NULL;
+}
+
 int fst_sweep_result_tics(const char *key, char *tics, size_t size)
 {
-    const int regimes = strcmp(key, "regime") == 0;
-    if (!regimes && strcmp(key, "symmetry") != 0)
+    const fst_sweep_names *names = fst_sweep_names_of(key);
+    if (!names && strcmp(key, "symmetry") != 0)
         return 0;
-    const int count = regimes ? FST_REGIME_COUNT : FST_SYMMETRY_COUNT;
+    const int count = names ? names->count : FST_SYMMETRY_COUNT;
     (void)snprintf(tics, size, "(");
     for (int i = 0; i < count; ++i) {
-        const char *name = regimes ? fst_regime_name((fst_regime)i) : fst_symmetry_name((fst_symmetry)i);
+        const char *name = names ? NULL : fst_symmetry_name((fst_symmetry)i);
+        size_t length = 4;
+        const char *word = names ? fst_name_at(names->words, i, &length) : name ? name : "none";
+        if (name)
+            length = strlen(name);
         const size_t used = strlen(tics);
-        (void)snprintf(tics + used, size - used, "%s'%s' %d", i ? ", " : "", name ? name : "none", i);
+        (void)snprintf(tics + used, size - used, "%s'%.*s' %d", i ? ", " : "", (int)length, word, i);
     }
     (void)snprintf(tics + strlen(tics), size - strlen(tics), ")");
-    return 1;
+    return count;
 }
 
 fst_status fst_sweep_quantity_of(const fst_grid *grid, const char *key, fst_shown_units units,
                                  fst_sweep_quantity *quantity, fst_error *error)
 {
     const fst_scales scales = scales_of(grid), base = fst_scales_of(fst_grid_base(grid));
-    const char *unit = "", *name, *base_name;
-    for (int i = 0; i < fst_result_count(); ++i)
-        if (strcmp(fst_result_at(i)->name, key) == 0)
-            unit = fst_result_at(i)->unit;
+    const char *unit = fst_sweep_key_unit(key), *name, *base_name;
     (void)fst_unit_shown(unit, units, &scales, &name);
     (void)fst_unit_shown(unit, units, &base, &base_name);
     const int field_only = strcmp(unit, "B0") == 0; /* it then stays in B0 */
@@ -193,10 +212,7 @@ fst_status fst_sweep_quantity_of(const fst_grid *grid, const char *key, fst_show
 
 fst_colour fst_regime_colour(int regime)
 {
-#define COLOUR(NAME, name, doc, colour) FST_COLOUR_##colour,
-    static const fst_colour colours[] = {FST_REGIMES(COLOUR)};
-#undef COLOUR
-    return colours[regime];
+    return regime_colours[regime];
 }
 
 fst_look fst_regime_look(fst_regime regime)

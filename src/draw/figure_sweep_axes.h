@@ -23,8 +23,17 @@ double fst_sweep_axis_value(const fst_grid *grid, const fst_sweep_axis *axis, in
 /* gnuplot's tics for an axis that is a choice, "('rigid' 0, 'farago2020' 1)": the values that occur. */
 void fst_sweep_choice_tics(const fst_sweep_axis *axis, char *tics, size_t size);
 
-/* gnuplot's tics for values that are names: those of regimes or symmetries; 0: `key` is neither. */
+/* gnuplot's tics for values that are names: those of regimes, symmetries or floating; returns how many names there are, 0
+ * where the values of `key` are numbers. */
 int fst_sweep_result_tics(const char *key, char *tics, size_t size);
+
+/* The names that are the values of a key, with colours of their own; NULL: they are others, or numbers. */
+typedef struct fst_sweep_names {
+    int count;
+    const char *words;
+    const fst_colour *colours;
+} fst_sweep_names;
+const fst_sweep_names *fst_sweep_names_of(const char *key);
 
 /* The colour of a regime in all figures. */
 fst_colour fst_regime_colour(int regime);

@@ -85,11 +85,12 @@ static void add_panels(drawing *d, const fst_sweep_table *table, const fst_sweep
         fst_chart_panel *panel = &d->panels[d->panel_count++];
         *panel = (fst_chart_panel){
             .left_label = quantities[k].label, .low = NAN, .high = NAN, .curves = &d->curves[d->curve_count]};
-        if (fst_sweep_result_tics(quantities[k].key, d->tics[d->panel_count - 1], sizeof d->tics[0])) {
+        const int names =
+            fst_sweep_result_tics(quantities[k].key, d->tics[d->panel_count - 1], sizeof d->tics[0]);
+        if (names) {
             panel->tics = d->tics[d->panel_count - 1];
             panel->low = -0.5;
-            panel->high =
-                (strcmp(quantities[k].key, "regime") == 0 ? FST_REGIME_COUNT : FST_SYMMETRY_COUNT) - 0.5;
+            panel->high = names - 0.5;
         }
         const int first = d->curve_count;
         if (regime)

@@ -9,6 +9,7 @@
 
 enum {
     MOST_CELLS = 1024,
+    MOST_NAMES = FST_REGIME_COUNT,
     LEFT = 62, /* pixels about the map */
     NAMES = 108,
     RIGHT = 22,
@@ -36,7 +37,7 @@ typedef struct map {
     const fst_sweep_table *table;
     const fst_sweep_axis *axes; /* the first one goes upward, the second one to the right */
     side up, right;
-    int regimes; /* colours mean regimes */
+    const fst_sweep_names *names; /* that colours mean; NULL: the values are numbers */
     double factor;
 } map;
 
@@ -120,7 +121,7 @@ static double upper_end(const side *s, const fst_sweep_axis *axis, int64_t last)
     return axis->logarithmic ? edge * exp(beyond) : edge + beyond;
 }
 
-/* Draw the cells of one regime, or all of them (regime < 0).  Neighbouring cells of a row with the same regime
+/* Draw the cells of one name, as a regime, or all of them (regime < 0).  Neighbouring cells of a row with the same regime
  * become one box, which keeps the file small.  A refined map has one colour for a regime, whether a point was run
  * or lies between runs that agree: two would look like a weave, because the coarse grid was run everywhere. */
 static void write_cells(fst_figure_file *figure, const map *m, int regime)
@@ -132,7 +133,7 @@ static void write_cells(fst_figure_file *figure, const map *m, int regime)
         for (int64_t column = 0; column < m->right.count;) {
             const double value = value_at(m, row, column);
             int64_t next = column + 1;
-            while (m->regimes && next < m->right.count && value_at(m, row, next) == value)
+            while (m->names && next < m->right.count && value_at(m, row, next) == value)
                 ++next;
             if (regime < 0 ? isfinite(value) : value == regime)
                 (void)fprintf(figure->data, "%.7g %.7g %.9g %.9g %.9g %.9g %.7g\n",
@@ -155,17 +156,17 @@ static void write_axis(fst_figure_file *figure, const fst_sweep_axis *axis, cons
     (void)fprintf(figure->script, "set %srange [%.9g:%.9g]\n", letter, s->edges[0], s->edges[s->count]);
 }
 
-static void write_regimes(fst_figure_file *figure, const map *m, const int occurs[FST_REGIME_COUNT])
+static void write_names(fst_figure_file *figure, const map *m, const int occurs[MOST_NAMES])
 {
     (void)fputs("plot ", figure->script);
-    for (int r = 0; r < FST_REGIME_COUNT; ++r)
+    for (int r = 0; r < m->names->count; ++r)
         if (occurs[r]) {
             write_cells(figure, m, r);
             (void)fprintf(
                 figure->script,
                 "data index 'cells-%d' using 1:2:3:4:5:6 with boxxyerror fillstyle solid 1.0 noborder "
                 "lc rgb '%s' notitle, \\\n     ",
-                r, fst_colour_code(fst_regime_colour(r)));
+                r, fst_colour_code(m->names->colours[r]));
         }
     (void)fputs("NaN notitle\n", figure->script);
 }
@@ -203,13 +204,12 @@ static int64_t blank_points(const map *m)
 }
 
 /* What is shown, and how many points have no value. */
-static fst_legend make_legend(const map *m, const fst_sweep_quantity *quantity,
-                              const int occurs[FST_REGIME_COUNT])
+static fst_legend make_legend(const map *m, const fst_sweep_quantity *quantity, const int occurs[MOST_NAMES])
 {
     fst_legend legend = {.count = 0};
     const int64_t points = fst_grid_points(m->table->grid), blank = blank_points(m);
     char words[3][128];
-    fst_sweep_words(m->regimes ? "Regimes of motion" : quantity->label, words[0]);
+    fst_sweep_words(strcmp(quantity->key, "regime") == 0 ? "Regimes of motion" : quantity->label, words[0]);
     fst_sweep_words(m->axes[1].label, words[1]);
     fst_sweep_words(m->axes[0].label, words[2]);
     (void)snprintf(legend.title, sizeof legend.title, "%.80s over %.80s and %.80s", words[0], words[1],
@@ -224,17 +224,20 @@ static fst_legend make_legend(const map *m, const fst_sweep_quantity *quantity,
     used = strlen(legend.about);
     if (m->table->refine)
         (void)snprintf(legend.about + used, sizeof legend.about - used, "; %s",
-                       m->regimes ? "the others lie between runs that agree" : "interpolated between them");
+                       m->names ? "the others lie between runs that agree" : "interpolated between them");
     used = strlen(legend.about);
     if (blank > 0)
         (void)snprintf(legend.about + used, sizeof legend.about - used,
                        "; white: %lld of %lld points without a value", (long long)blank, (long long)points);
-    for (int r = 0; r < FST_REGIME_COUNT; ++r)
+    for (int r = 0; m->names && r < m->names->count; ++r)
         if (occurs[r]) {
-            char style[64];
+            char style[64], name[64];
+            size_t length;
+            const char *word = fst_name_at(m->names->words, r, &length);
+            (void)snprintf(name, sizeof name, "%.*s", (int)length, word);
             (void)snprintf(style, sizeof style, "fs solid 1.0 noborder lc rgb '%s'",
-                           fst_colour_code(fst_regime_colour(r)));
-            fst_legend_add(&legend, FST_SAMPLE_BOX, style, fst_regime_name((fst_regime)r));
+                           fst_colour_code(m->names->colours[r]));
+            fst_legend_add(&legend, FST_SAMPLE_BOX, style, name);
         }
     return legend;
 }
@@ -250,14 +253,14 @@ static fst_status draw(map *m, const fst_sweep_quantity *quantity, const char *o
         status = lay_side(&m->right, grid, &m->axes[1], error);
     if (status != FST_OK)
         return status;
-    int occurs[FST_REGIME_COUNT] = {0};
-    for (int64_t i = 0; m->regimes && i < fst_grid_points(grid); ++i)
+    int occurs[MOST_NAMES] = {0};
+    for (int64_t i = 0; m->names && i < fst_grid_points(grid); ++i)
         if (isfinite(m->table->values[i]))
             occurs[(int)m->table->values[i]] = 1;
     const fst_legend legend = make_legend(m, quantity, occurs);
     const int left = m->axes[0].choice ? NAMES : LEFT, top = fst_legend_head(&legend) + 8;
     const int scale = top + FRAME + AXIS;
-    const int height = scale + (m->regimes ? 0 : SCALE) + fst_legend_foot(&legend);
+    const int height = scale + (m->names ? 0 : SCALE) + fst_legend_foot(&legend);
     status = fst_figure_begin(&figure, out, FST_FIGURE_WIDTH, height, error);
     if (status != FST_OK)
         return status;
@@ -270,8 +273,8 @@ static fst_status draw(map *m, const fst_sweep_quantity *quantity, const char *o
     (void)fputs("set tics out nomirror\nunset key\n", figure.script);
     write_axis(&figure, &m->axes[1], &m->right, "x");
     write_axis(&figure, &m->axes[0], &m->up, "y");
-    if (m->regimes)
-        write_regimes(&figure, m, occurs);
+    if (m->names)
+        write_names(&figure, m, occurs);
     else
         write_heat(&figure, m, quantity->label, left, scale, height);
     fst_legend_write(&figure, &legend, height);
@@ -281,10 +284,8 @@ static fst_status draw(map *m, const fst_sweep_quantity *quantity, const char *o
 fst_status fst_figure_sweep_map(const fst_sweep_table *table, const fst_sweep_quantity *quantity,
                                 const fst_sweep_axis axes[2], const char *out, fst_error *error)
 {
-    map m = {.table = table,
-             .axes = axes,
-             .regimes = strcmp(quantity->key, "regime") == 0,
-             .factor = quantity->factor};
+    map m = {
+        .table = table, .axes = axes, .names = fst_sweep_names_of(quantity->key), .factor = quantity->factor};
     if (fst_grid_axis_stride(table->grid, axes[0].index) == fst_grid_axis_stride(table->grid, axes[1].index))
         return fst_fail(error, FST_BAD_INPUT, out, "random points make no map: use fst_sweep_export()");
     const fst_status status = draw(&m, quantity, out, error);

@@ -226,3 +226,27 @@ void fst_levitation_free(fst_levitation_list *list)
     free(list->states);
     memset(list, 0, sizeof *list);
 }
+
+const fst_levitation *fst_levitation_best(const fst_params *params, const fst_levitation_list *list, int above)
+{
+    const double up = params->plate_gravity < 0 ? -1.0 : 1.0;
+    const fst_levitation *best = NULL;
+    for (size_t i = 0; i < list->count; ++i) {
+        const fst_levitation *l = &list->states[i];
+        if ((up * l->state[2] > 0) != (above != 0))
+            continue;
+        if (!best || (!best->stable && l->eigenvalue_re[0] < best->eigenvalue_re[0]))
+            best = l;
+    }
+    return best;
+}
+
+fst_floating fst_levitation_word(const fst_levitation *place)
+{
+    if (!place || place->stable)
+        return place ? FST_FLOATS_STABLY : FST_FLOATS_NOWHERE;
+    for (int i = 0; i < place->unstable; ++i)
+        if (place->eigenvalue_im[i] == 0.0)
+            return FST_FLOATS_AWAY;
+    return FST_FLOATS_OSCILLATING;
+}

@@ -32,6 +32,7 @@ struct fst_grid {
     int axis_count;
     uint64_t seed;
     int64_t points;
+    fst_row_kind kind;
 };
 
 /* Where errors say that the fault is. */
@@ -211,31 +212,9 @@ static const axis *axis_over(const fst_grid *grid, const char *key)
     return NULL;
 }
 
-/* Rows of one bead are those of a bead on a flat plate in air. */
-static fst_status check_flat(const fst_grid *grid, fst_error *error)
-{
-    static const char *const beyond[] = {
-        "plate.shape", "plate.bowl_radius", "plate.tilt",      "medium.",    "field.", "coils", "wave.",
-        "world.",      "drive.waveform",    "drive.amplitude", "drive.chirp"};
-    if (grid->base.bead_count)
-        return FST_OK;
-    for (int i = 0; i < grid->axis_count; ++i)
-        for (size_t k = 0; k < sizeof beyond / sizeof *beyond; ++k)
-            if (strncmp(grid->axes[i].info->key, beyond[k], strlen(beyond[k])) == 0)
-                return fst_fail(
-                    error, FST_BAD_INPUT, AXES,
-                    "%s is known to `run` and `locked` alone: the rows of one bead are those of a bead on a "
-                    "flat plate in air",
-                    grid->axes[i].info->key);
-    return fst_check_no_world(&grid->base, error);
-}
-
 /* Axes along which all rows would be alike are mistakes. */
 static fst_status check_effects(const fst_grid *grid, fst_error *error)
 {
-    const fst_status flat = check_flat(grid, error);
-    if (flat != FST_OK)
-        return flat;
     if (axis_over(grid, "run.samples"))
         return fst_fail(error, FST_BAD_INPUT, AXES,
                         "run.samples concerns written trajectories only and changes nothing in a row");
@@ -282,6 +261,36 @@ static fst_status lay_out(fst_grid *grid, fst_error *error)
     return FST_OK;
 }
 
+/* Whether a point has a world.  What makes one are keys that differ from the plate's values, so that three values of an
+ * evenly spaced axis show it, with the first values of the others. */
+static int has_worlds(const fst_grid *grid)
+{
+    enum { SHOW = 3 };
+    fst_params params;
+    for (int i = 0; i < grid->axis_count; ++i) {
+        const axis *a = &grid->axes[i];
+        const int64_t count = a->list || a->count < SHOW ? a->count : SHOW;
+        for (int64_t k = 0; k < count; ++k)
+            if (fst_grid_params(grid, k * a->stride, &params, NULL) == FST_OK && fst_key_of_world(&params))
+                return 1;
+    }
+    return 0;
+}
+
+fst_row_kind fst_grid_row_kind(const fst_grid *grid)
+{
+    return grid->kind;
+}
+
+fst_status fst_grid_ask_levitation(fst_grid *grid, fst_error *error)
+{
+    if (grid->base.bead_count || grid->base.plate_shape != FST_PLATE_NONE)
+        return fst_fail(error, FST_BAD_INPUT, "plate.shape",
+                        "a bead levitates alone and without a plate: choose plate.shape none");
+    grid->kind = FST_ROWS_OF_LEVITATION;
+    return FST_OK;
+}
+
 fst_status fst_grid_new(const fst_params *base, const char *const *axes, int count, uint64_t seed,
                         fst_grid **grid, fst_error *error)
 {
@@ -307,6 +316,9 @@ fst_status fst_grid_new(const fst_params *base, const char *const *axes, int cou
         fst_grid_free(made);
         return status;
     }
+    made->kind = made->base.bead_count ? FST_ROWS_OF_BEADS
+                 : has_worlds(made)    ? FST_ROWS_OF_WORLDS
+                                       : FST_ROWS_OF_RUNS;
     *grid = made;
     return FST_OK;
 }

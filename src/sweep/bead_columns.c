@@ -1,50 +1,131 @@
-/* bead_columns.c - the columns of a sweep over a scene that lists beads: outcome, the largest group, powers, counts. */
+/* bead_columns.c - rows of a sweep that are no runs of a bead on the plate: of several beads (outcome, the largest group,
+ * powers, counts), of worlds (what fst_world_run() tells), and of the places where a bead floats. */
 #include "sweep/bead_columns.h"
 
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
-#define OF(field) offsetof(fst_beads_row, field)
-#define COUNT(NAME, name, doc) {name, FST_BEAD_COUNT, NULL, "1", OF(counts) + FST_##NAME * sizeof(int64_t)},
+/* ------------------------------------------------------------------ columns */
 
+#define OF(field) offsetof(fst_sweep_record, field)
+#define BEADS(name, kind, names, unit, field)                                                                  \
+    {FST_ROWS_OF_BEADS, name, FST_BEAD_##kind, names, unit, OF(beads.field)},
+#define WORLD(name, kind, names, unit, field)                                                                  \
+    {FST_ROWS_OF_WORLDS, name, FST_BEAD_##kind, names, unit, OF(field)},
+#define FLOATS(name, kind, names, field)                                                                       \
+    {FST_ROWS_OF_LEVITATION, name, FST_BEAD_##kind, names, "1", OF(levitation.field)},
+#define COUNT(NAME, name, doc) BEADS(name, COUNT, NULL, "1", counts[FST_##NAME])
+#define FINAL(name, unit, k) WORLD("final_" name, REAL, NULL, unit, world.final_state[k])
+#define SIDE(name, k)                                                                                          \
+    FLOATS(name, NAME, FST_WORDS(FST_FLOATINGS), side[k].word)                                                 \
+    FLOATS(name "_height_mm", REAL, NULL, side[k].height_mm)                                                   \
+    FLOATS(name "_tilt_deg", REAL, NULL, side[k].tilt_deg)                                                     \
+    FLOATS(name "_gap_mm", REAL, NULL, side[k].gap_mm)                                                         \
+    FLOATS(name "_growth_per_s", REAL, NULL, side[k].growth_per_s)
+
+/* clang-format off: a line a column */
 static const fst_bead_column columns[] = {
-    {"outcome", FST_BEAD_NAME, FST_WORDS(FST_BEADS_OUTCOMES), "1", OF(outcome)},
-    {"groups", FST_BEAD_INT, NULL, "1", OF(group_count)},
-    {"largest_kind", FST_BEAD_NAME, FST_WORDS(FST_BEAD_GROUPS), "1", OF(largest_kind)},
-    {"largest_beads", FST_BEAD_INT, NULL, "1", OF(largest_count)},
-    {"mean_r", FST_BEAD_REAL, NULL, "l", OF(mean_r)},
-    {"centre_rate", FST_BEAD_REAL, NULL, "gamma", OF(centre_rate)},
-    {"axis_rate", FST_BEAD_REAL, NULL, "gamma", OF(axis_rate)},
-    {"drive_power", FST_BEAD_REAL, NULL, "l^2 gamma^3", OF(drive_power)},
-    {"plate_power", FST_BEAD_REAL, NULL, "l^2 gamma^3", OF(plate_power)},
-    {"pair_power", FST_BEAD_REAL, NULL, "l^2 gamma^3", OF(pair_power)},
-    {"impact_power", FST_BEAD_REAL, NULL, "l^2 gamma^3", OF(impact_power)},
-    {"energy_residual", FST_BEAD_REAL, NULL, "l^2 gamma^2", OF(energy_residual)},
-    FST_BEAD_EVENT_LIST(COUNT){"periods", FST_BEAD_REAL, NULL, "1", OF(periods)},
-    {"method", FST_BEAD_NAME, FST_WORDS(FST_BEADS_METHODS), "1", OF(method)},
-    {"rhs_calls", FST_BEAD_COUNT, NULL, "1", OF(rhs_calls)},
-    {"steps_accepted", FST_BEAD_COUNT, NULL, "1", OF(accepted)},
-    {"steps_rejected", FST_BEAD_COUNT, NULL, "1", OF(rejected)},
-};
+    BEADS("outcome", NAME, FST_WORDS(FST_BEADS_OUTCOMES), "1",
+          outcome) BEADS("groups", INT, NULL, "1",
+                         group_count) BEADS("largest_kind", NAME, FST_WORDS(FST_BEAD_GROUPS), "1",
+                                            largest_kind) BEADS("largest_beads", INT, NULL, "1", largest_count)
+        BEADS("mean_r", REAL, NULL, "l", mean_r) BEADS("centre_rate", REAL, NULL, "gamma", centre_rate) BEADS(
+            "axis_rate", REAL, NULL, "gamma",
+            axis_rate) BEADS("drive_power", REAL, NULL, "l^2 gamma^3",
+                             drive_power) BEADS("plate_power", REAL, NULL, "l^2 gamma^3", plate_power)
+            BEADS("pair_power", REAL, NULL, "l^2 gamma^3", pair_power) BEADS(
+                "impact_power",
+                REAL,
+                NULL,
+                "l^2 gamma^3",
+                impact_power) BEADS("energy_residual", REAL, NULL, "l^2 gamma^2", energy_residual)
+                FST_BEAD_EVENT_LIST(COUNT) BEADS("periods", REAL, NULL, "1", periods) BEADS(
+                    "method",
+                    NAME,
+                    FST_WORDS(FST_BEADS_METHODS),
+                    "1", method) BEADS("rhs_calls", COUNT, NULL, "1", rhs_calls)
+                    BEADS("steps_accepted", COUNT, NULL, "1", accepted) BEADS(
+                        "steps_rejected",
+                        COUNT, NULL, "1",
+                        rejected) WORLD("regime", NAME, FST_WORDS(FST_REGIMES), "1", result.regime)
+                        WORLD("frame", NAME, FST_WORDS(FST_FRAMES), "1", world.frame) WORLD(
+                            "omega", REAL, NULL, "gamma",
+                            result.omega) WORLD("frequency_hz", REAL, NULL, "1", result.frequency_hz)
+                            WORLD("mean_r", REAL, NULL,
+                                  "l", result.mean_r) WORLD("mean_height", REAL, NULL, "l", world.mean_height)
+                                WORLD("mean_alpha_dot", REAL, NULL, "gamma", result.mean_alpha_dot) WORLD(
+                                    "mean_load_weights", REAL, NULL,
+                                    "1", result.mean_load_weights) WORLD("mean_drive_power", REAL, NULL,
+                                                                         "l^2 gamma^3", result.mean_drive_power)
+                                    WORLD("mean_friction_power", REAL, NULL, "l^2 gamma^3",
+                                          result.mean_friction_power)
+                                        WORLD("mean_medium_power", REAL, NULL, "l^2 gamma^3",
+                                              world.mean_medium_power)
+                                            WORLD("mean_impact_power", REAL, NULL, "l^2 gamma^3",
+                                                  result.mean_impact_power)
+                                                WORLD("energy_residual", REAL, NULL, "1",
+                                                      result.energy_residual)
+                                                    WORLD("end_time", REAL, NULL, "1/gamma", result.end_time)
+                                                        WORLD("periods", REAL, NULL, "1", result.periods) WORLD(
+                                                            "window_periods",
+                                                            REAL,
+                                                            NULL,
+                                                            "1", result.window_periods)
+                                                            WORLD("rhs_calls", COUNT, NULL, "1",
+                                                                  result.rhs_calls)
+                                                                WORLD("steps_accepted", COUNT, NULL, "1",
+                                                                      result.accepted)
+                                                                    WORLD("steps_rejected", COUNT, NULL, "1",
+                                                                          result.rejected) FINAL("X", "l", 0)
+                                                                        FINAL("Y", "l", 1) FINAL("Z", "l", 2)
+                                                                            FINAL("vX", "l gamma", 3) FINAL(
+                                                                                "vY", "l gamma",
+                                                                                4) FINAL("vZ", "l gamma",
+                                                                                         5) FINAL("nX", "1", 6)
+                                                                                FINAL("nY", "1",
+                                                                                      7) FINAL("nZ", "1", 8)
+                                                                                    FINAL("WX", "gamma",
+                                                                                          9) FINAL("WY",
+                                                                                                   "gamma", 10)
+                                                                                        FINAL("WZ", "gamma", 11)
+                                                                                            FLOATS("places",
+                                                                                                   INT, NULL,
+                                                                                                   places)
+                                                                                                SIDE("below", 0)
+                                                                                                    SIDE(
+                                                                                                        "above",
+                                                                                                        1)};
+/* clang-format on */
 
-int fst_bead_column_count(void)
+const fst_bead_column *fst_bead_column_at(fst_row_kind kind, int index)
 {
-    return sizeof columns / sizeof *columns;
+    for (size_t i = 0; i < sizeof columns / sizeof *columns; ++i)
+        if (columns[i].rows == kind && index-- == 0)
+            return &columns[i];
+    return NULL;
 }
 
-const fst_bead_column *fst_bead_column_at(int index)
+int fst_bead_column_count(fst_row_kind kind)
 {
-    return &columns[index];
+    int count = 0;
+    while (fst_bead_column_at(kind, count))
+        ++count;
+    return count;
 }
 
 const fst_bead_column *fst_bead_column_find(const char *name)
 {
-    for (int i = 0; i < fst_bead_column_count(); ++i)
+    for (size_t i = 0; i < sizeof columns / sizeof *columns; ++i)
         if (strcmp(columns[i].name, name) == 0)
             return &columns[i];
     return NULL;
 }
 
-fst_beads_row fst_beads_row_of(const fst_beads_result *result)
+/* ------------------------------------------------------------------ rows */
+
+static fst_beads_row beads_row_of(const fst_beads_result *result)
 {
     const fst_bead_group *largest = result->groups;
     for (int g = 1; g < result->group_count; ++g)
@@ -74,4 +155,81 @@ fst_beads_row fst_beads_row_of(const fst_beads_result *result)
     }
     memcpy(row.counts, result->counts, sizeof row.counts);
     return row;
+}
+
+static fst_status beads_row(const fst_params *params, const fst_progress *progress, fst_sweep_record *record,
+                            fst_error *error)
+{
+    fst_beads_result result;
+    fst_beads_options options = fst_default_beads_options();
+    options.progress = progress;
+    const fst_status status = fst_beads_run_scene(params, &options, &result, error);
+    if (status == FST_OK)
+        record->beads = beads_row_of(&result);
+    (void)snprintf(record->result.reason, sizeof record->result.reason, "%s", result.reason);
+    fst_beads_free(&result);
+    return status;
+}
+
+/* A point without a world is told by fst_run(), as `festoon run` tells it: its state has no height. */
+static fst_status plate_row(const fst_params *params, const fst_progress *progress, fst_sweep_record *record,
+                            fst_error *error)
+{
+    static const int places[FST_STATE_SIZE] = {0, 1, 3, 4, 6, 7, 8, 9, 10, 11};
+    fst_run_options options = fst_default_run_options();
+    fst_world_row *world = &record->world;
+    options.progress = progress;
+    *world = (fst_world_row){FST_FRAME_TURNING, NAN, NAN, {0}};
+    const fst_status status = fst_run(params, &options, &record->result, error);
+    for (int k = 0; k < FST_STATE_SIZE; ++k)
+        world->final_state[places[k]] = record->result.final_state[k];
+    world->final_state[2] = world->final_state[5] = NAN;
+    return status;
+}
+
+static fst_status world_row(const fst_params *params, const fst_progress *progress, fst_sweep_record *record,
+                            fst_error *error)
+{
+    fst_world_result result;
+    fst_beads_options options = fst_default_beads_options();
+    options.progress = progress;
+    const fst_status status = fst_world_run(params, &options, &result, error);
+    record->result = result.run;
+    record->world = (fst_world_row){result.frame, result.mean_height, result.mean_medium_power, {0}};
+    memcpy(record->world.final_state, result.final_state, sizeof result.final_state);
+    return status;
+}
+
+static fst_status levitation_row(const fst_params *params, const fst_progress *progress,
+                                 fst_sweep_record *record, fst_error *error)
+{
+    fst_levitation_list list;
+    const fst_status status = fst_levitation_find(params, progress, &list, error);
+    record->levitation.places = (int)list.count;
+    for (int side = 0; side < 2 && status == FST_OK; ++side) {
+        const fst_levitation *best = fst_levitation_best(params, &list, side);
+        record->levitation.side[side].word = fst_levitation_word(best);
+        record->levitation.side[side].height_mm = best ? best->height_mm : NAN;
+        record->levitation.side[side].tilt_deg = best ? best->tilt_deg : NAN;
+        record->levitation.side[side].gap_mm = best ? best->gap_mm : NAN;
+        record->levitation.side[side].growth_per_s = best ? best->eigenvalue_re[0] : NAN;
+    }
+    fst_levitation_free(&list);
+    return status;
+}
+
+fst_status fst_own_row(fst_row_kind kind, const fst_params *params, const fst_progress *progress,
+                       fst_sweep_record *record, fst_error *error)
+{
+    fst_error why = {FST_OK, "", ""};
+    record->status = kind == FST_ROWS_OF_BEADS        ? beads_row(params, progress, record, &why)
+                     : kind == FST_ROWS_OF_LEVITATION ? levitation_row(params, progress, record, &why)
+                     : fst_key_of_world(params)       ? world_row(params, progress, record, &why)
+                                                      : plate_row(params, progress, record, &why);
+    if (record->status != FST_OK)
+        (void)snprintf(record->result.reason, sizeof record->result.reason, "%.255s", why.sentence);
+    if (record->status != FST_INTERRUPTED)
+        return FST_OK;
+    *error = why;
+    return FST_INTERRUPTED;
 }

@@ -1,4 +1,5 @@
-/* bead_columns.h - the columns of a sweep over a scene that lists beads. */
+/* bead_columns.h - rows of a sweep that are no runs of a bead on the plate (fst_row_kind): what they hold, their columns,
+ * and how they are computed. */
 #ifndef FST_SWEEP_BEAD_COLUMNS_H
 #define FST_SWEEP_BEAD_COLUMNS_H
 
@@ -11,22 +12,56 @@ typedef struct fst_beads_row {
     double drive_power, plate_power, pair_power, impact_power, energy_residual, periods;
     int64_t counts[FST_BEAD_EVENTS], rhs_calls, accepted, rejected;
 } fst_beads_row;
-fst_beads_row fst_beads_row_of(const fst_beads_result *result);
+
+/* Of a world, beside the result of its run. */
+typedef struct fst_world_row {
+    int frame;
+    double mean_height, mean_medium_power, final_state[FST_BEAD_NUMBERS];
+} fst_world_row;
+
+/* Of the places where a bead floats: the best one below the magnet and above it. */
+typedef struct fst_levitation_row {
+    int places;
+    struct {
+        int word; /* fst_floating */
+        double height_mm, tilt_deg, gap_mm, growth_per_s;
+    } side[2];
+} fst_levitation_row;
+
+/* A finished point. */
+typedef struct fst_sweep_record {
+    int64_t point;
+    int carried;       /* it started from its neighbour's end state */
+    fst_status status; /* other than FST_OK: the run failed, and result.reason says why */
+    int dynamics;      /* fst_dynamics */
+    fst_run_result result;
+    union { /* by the kind of the rows */
+        fst_beads_row beads;
+        fst_world_row world;
+        fst_levitation_row levitation;
+    };
+} fst_sweep_record;
+
+/* Compute the row of a point: status, result.reason and what its kind has.  FST_INTERRUPTED: progress said so. */
+fst_status fst_own_row(fst_row_kind kind, const fst_params *params, const fst_progress *progress,
+                       fst_sweep_record *record, fst_error *error);
 
 /* A name of a list by its place, an int; an int; an int64_t; a double. */
 typedef enum { FST_BEAD_NAME, FST_BEAD_INT, FST_BEAD_COUNT, FST_BEAD_REAL } fst_bead_column_kind;
 
-/* A column: its name, what it holds, the list of names, "apart|walker|...", and the unit of a number. */
+/* A column: whose rows have it, its name, what it holds, the list of names, "apart|walker|...", and the unit of a
+ * number. */
 typedef struct fst_bead_column {
+    fst_row_kind rows;
     const char *name;
     fst_bead_column_kind kind;
     const char *names, *unit;
-    size_t offset; /* in fst_beads_row */
+    size_t offset; /* in fst_sweep_record */
 } fst_bead_column;
-int fst_bead_column_count(void);
-const fst_bead_column *fst_bead_column_at(int index);
+int fst_bead_column_count(fst_row_kind kind);
+const fst_bead_column *fst_bead_column_at(fst_row_kind kind, int index);
 
-/* The column of this name, or NULL. */
+/* The first column of this name of any kind, or NULL. */
 const fst_bead_column *fst_bead_column_find(const char *name);
 
 #endif

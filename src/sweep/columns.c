@@ -23,15 +23,16 @@ static int is_choice(const fst_grid *grid, int axis)
     return fst_param_at(fst_param_find(fst_grid_key(grid, axis)))->kind == FST_KIND_CHOICE;
 }
 
-static int has_beads(const fst_grid *grid)
+/* Whether rows have the columns of bead_columns.h. */
+static int has_own(const fst_grid *grid)
 {
-    return fst_grid_base(grid)->bead_count > 0;
+    return fst_grid_row_kind(grid) != FST_ROWS_OF_RUNS;
 }
 
 int fst_sweep_column_count(const fst_grid *grid)
 {
-    if (has_beads(grid)) /* point, axes, status, reason and their own */
-        return 1 + fst_grid_axis_count(grid) + 2 + fst_bead_column_count();
+    if (has_own(grid)) /* point, axes, status, reason and their own */
+        return 1 + fst_grid_axis_count(grid) + 2 + fst_bead_column_count(fst_grid_row_kind(grid));
     return 1 + fst_grid_axis_count(grid) + FIRST_COUNT + fst_result_count() + COUNT_COUNT + FST_STATE_SIZE;
 }
 
@@ -44,15 +45,14 @@ char *fst_sweep_columns_sql(const fst_grid *grid)
     (void)fputs("point INTEGER PRIMARY KEY", out);
     for (int i = 0; i < fst_grid_axis_count(grid); ++i)
         (void)fprintf(out, ", \"%s\" %s", fst_grid_key(grid, i), is_choice(grid, i) ? "TEXT" : "REAL");
-    if (has_beads(grid)) {
+    if (has_own(grid)) {
         (void)fputs(", status TEXT, reason TEXT", out);
-        for (int i = 0; i < fst_bead_column_count(); ++i) {
-            const fst_bead_column *column = fst_bead_column_at(i);
+        const fst_bead_column *column;
+        for (int i = 0; (column = fst_bead_column_at(fst_grid_row_kind(grid), i)); ++i)
             (void)fprintf(out, ", %s %s", column->name,
                           column->kind == FST_BEAD_NAME   ? "TEXT"
                           : column->kind == FST_BEAD_REAL ? "REAL"
                                                           : "INTEGER");
-        }
         (void)fputs(", checksum INTEGER", out);
         return fst_print_end(&printed);
     }
@@ -88,7 +88,7 @@ char *fst_sweep_select_sql(void)
 char *fst_sweep_state_sql(const fst_grid *grid)
 {
     fst_printed printed;
-    if (has_beads(grid)) /* whose states are not carried */
+    if (has_own(grid)) /* whose states are not carried */
         return strdup("SELECT ?1 < 0 AND ?2 < 0");
     FILE *out = fst_print_begin(&printed);
     if (!out)
@@ -162,16 +162,16 @@ static void name_choice(const char *key, int value, char *name, size_t size)
     (void)fst_params_get(&params, param, name, size);
 }
 
-/* The columns of several beads. */
-static void bind_beads(binding *b, const fst_sweep_record *record)
+/* Columns other than those of a run on the plate. */
+static void bind_own(binding *b, fst_row_kind kind, const fst_sweep_record *record)
 {
     char name[64];
     const int done = record->status == FST_OK;
     bind_text(b, done ? "done" : fst_status_text(record->status));
     bind_text(b, record->result.reason);
-    for (int i = 0; i < fst_bead_column_count(); ++i) {
-        const fst_bead_column *column = fst_bead_column_at(i);
-        const void *field = (const char *)&record->beads + column->offset;
+    const fst_bead_column *column;
+    for (int i = 0; (column = fst_bead_column_at(kind, i)); ++i) {
+        const void *field = (const char *)record + column->offset;
         size_t length;
         if (!done) {
             bind_null(b);
@@ -205,8 +205,8 @@ void fst_sweep_bind(sqlite3_stmt *insert, const fst_grid *grid, uint64_t seed, c
             bind_real(&b, value);
         }
     }
-    if (has_beads(grid)) {
-        bind_beads(&b, record);
+    if (has_own(grid)) {
+        bind_own(&b, fst_grid_row_kind(grid), record);
         return;
     }
     bind_text(&b, record->status == FST_OK ? "done" : fst_status_text(record->status));
@@ -325,10 +325,12 @@ fst_status fst_sweep_check_key(const char *key, const char *where, fst_error *er
         const size_t used = strlen(names);
         (void)snprintf(names + used, sizeof names - used, "|%s", fst_result_at(i)->name);
     }
-    for (int i = 0; i < fst_bead_column_count(); ++i) {
-        const size_t used = strlen(names);
-        (void)snprintf(names + used, sizeof names - used, "|%s", fst_bead_column_at(i)->name);
-    }
+    for (int kind = FST_ROWS_OF_BEADS; kind <= FST_ROWS_OF_LEVITATION; ++kind)
+        for (int i = 0; i < fst_bead_column_count((fst_row_kind)kind); ++i) {
+            const size_t used = strlen(names);
+            (void)snprintf(names + used, sizeof names - used, "|%s",
+                           fst_bead_column_at((fst_row_kind)kind, i)->name);
+        }
     if (fst_name_place(key, names) >= 0)
         return FST_OK;
     return fst_fail(error, FST_BAD_INPUT, where, "unknown key \"%.60s\"; %s", key,
@@ -341,7 +343,11 @@ fst_status fst_sweep_find(sqlite3_stmt *row, const char *key, const char *where,
     if (*place > 0)
         return FST_OK;
     return fst_fail(error, FST_BAD_INPUT, where, "the rows of this sweep, of %s, have no %s",
-                    fst_sweep_place(row, "outcome") ? "several beads" : "one bead", key);
+                    fst_sweep_place(row, "outcome")  ? "several beads"
+                    : fst_sweep_place(row, "frame")  ? "a bead in a world"
+                    : fst_sweep_place(row, "places") ? "places where a bead floats"
+                                                     : "one bead",
+                    key);
 }
 
 int fst_sweep_place(sqlite3_stmt *row, const char *key)

@@ -37,8 +37,7 @@ static const char *parameter_unit(const fst_param_info *info, fst_shown_units un
     return units == FST_SHOWN_LAB ? fst_unit_customary(info->unit, shift) : fst_unit_name(info->unit);
 }
 
-/* The scaled unit of a result; "1" for what is no number of a run. */
-static const char *unit_of_result(const char *key)
+const char *fst_sweep_key_unit(const char *key)
 {
     for (int i = 0; i < fst_result_count(); ++i)
         if (strcmp(fst_result_at(i)->name, key) == 0)
@@ -68,7 +67,7 @@ static void write_head(const table_writer *w, const fst_scales *scales)
         (void)fputc(',', w->stream);
     }
     for (int i = 0; i < w->count; ++i) {
-        (void)fst_number_shown(w->keys[i], unit_of_result(w->keys[i]), w->units, scales, &unit);
+        (void)fst_number_shown(w->keys[i], fst_sweep_key_unit(w->keys[i]), w->units, scales, &unit);
         write_name(w->stream, w->keys[i], unit);
         (void)fputc(',', w->stream);
     }
@@ -109,7 +108,7 @@ static void write_result(const table_writer *w, const char *key, double value, c
         (void)snprintf(text, sizeof text, "%s", fst_symmetry_name((fst_symmetry)value));
     else if (isfinite(value))
         (void)fst_number_write(text, sizeof text,
-                               value * fst_number_shown(key, unit_of_result(key), w->units, scales, &unit));
+                               value * fst_number_shown(key, fst_sweep_key_unit(key), w->units, scales, &unit));
     (void)fputs(text, w->stream);
 }
 

@@ -32,7 +32,7 @@ static int results_version(const fst_grid *grid)
     int dry = base->friction_law == FST_FRICTION_COULOMB || base->friction_law == FST_FRICTION_ROLLING;
     for (int i = 0; i < fst_grid_axis_count(grid); ++i)
         dry |= strncmp(fst_grid_axis_text(grid, i), "friction.law=", strlen("friction.law=")) == 0;
-    if (base->bead_count)
+    if (fst_grid_row_kind(grid) != FST_ROWS_OF_RUNS)
         return FST_BEADS_RESULTS_VERSION;
     return dry ? FST_DRY_RESULTS_VERSION : FST_RESULTS_VERSION;
 }
@@ -54,6 +54,8 @@ static void wanted_lines(const fst_sweep_identity *identity, fst_identity_lines 
     add_line(lines, "arithmetic", strdup(fst_arithmetic_name(identity->arithmetic)));
     add_line(lines, "fingerprint", format_text("%016llx", (unsigned long long)identity->fingerprint));
     add_line(lines, "results_version", format_text("%d", results_version(identity->grid)));
+    if (fst_grid_row_kind(identity->grid) == FST_ROWS_OF_LEVITATION) /* other rows follow from the scene */
+        add_line(lines, "rows", strdup("levitation"));
 }
 
 void fst_identity_free(fst_identity_lines *lines)
@@ -125,6 +127,10 @@ fst_status fst_identity_compare(const fst_identity_lines *lines, const char *pat
     fst_identity_lines wanted;
     wanted_lines(identity, &wanted);
     fst_status status = FST_OK;
+    if (fst_identity_text(lines, "rows") && !fst_identity_text(&wanted, "rows"))
+        status =
+            fst_fail(error, FST_BAD_INPUT, path,
+                     "this sweep tells of levitation, not of runs; it was left untouched: choose another file");
     for (int i = 0; i < wanted.count && status == FST_OK; ++i) {
         const char *there = fst_identity_text(lines, wanted.keys[i]);
         if (!wanted.values[i])
@@ -279,6 +285,8 @@ fst_status fst_identity_grid(const fst_identity_lines *lines, const char *path, 
     if (!good)
         return fail_damaged(path, error);
     const fst_status status = read_scene(lines, path, &params, error);
-    return status == FST_OK ? fst_grid_new(&params, texts, count, strtoull(seed, NULL, 10), grid, error)
-                            : status;
+    if (status != FST_OK)
+        return status;
+    const fst_status made = fst_grid_new(&params, texts, count, strtoull(seed, NULL, 10), grid, error);
+    return made == FST_OK && fst_identity_text(lines, "rows") ? fst_grid_ask_levitation(*grid, error) : made;
 }

@@ -24,16 +24,6 @@ typedef struct fst_sweep_identity {
 /* A hash of everything that must be the same for rows to belong into one database. */
 uint64_t fst_journal_identity_hash(const fst_sweep_identity *identity);
 
-/* A finished point. */
-typedef struct fst_sweep_record {
-    int64_t point;
-    int carried;       /* it started from its neighbour's end state */
-    fst_status status; /* other than FST_OK: the run failed, and result.reason says why */
-    int dynamics;      /* fst_dynamics */
-    fst_run_result result;
-    fst_beads_row beads; /* in its place, of a scene that lists beads */
-} fst_sweep_record;
-
 typedef struct fst_journal fst_journal;
 
 /* Open the database of a sweep, or make it where there is none.  A damaged one is replaced by one with its

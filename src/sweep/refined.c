@@ -18,7 +18,8 @@
 
 int fst_sweep_has_names(const char *key)
 {
-    return strcmp(key, "regime") == 0 || strcmp(key, "symmetry") == 0;
+    const fst_bead_column *own = fst_bead_column_find(key);
+    return strcmp(key, "symmetry") == 0 || (own && own->names);
 }
 
 fst_status fst_refining_of(const fst_sweep_options *o, fst_refining *refining, fst_error *error)

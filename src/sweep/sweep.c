@@ -424,11 +424,11 @@ static fst_status check_options(const fst_sweep_options *o, const fst_grid *grid
     if (!(o->checkpoint_seconds > 0))
         return fst_fail(error, FST_BAD_INPUT, "fst_sweep_options.checkpoint_seconds", "%g s must be positive",
                         o->checkpoint_seconds);
-    if (fst_grid_base(grid)->bead_count && (o->carry != FST_CARRY_NO || o->refine != 0))
+    if (fst_grid_row_kind(grid) != FST_ROWS_OF_RUNS && (o->carry != FST_CARRY_NO || o->refine != 0))
         return fst_fail(
             error, FST_BAD_INPUT, o->refine ? "fst_sweep_options.refine" : "fst_sweep_options.carry",
-            "the points of a scene that lists beads are all computed, each from its own start: leave "
-            "this out");
+            "the points of several beads, of worlds and of levitation are all computed, each from its own "
+            "start: leave this out");
     if (fst_grid_base(grid)->bead_count > FST_BEADS_MOST)
         return fst_fail(error, FST_BAD_INPUT, "beads", "a sweep takes at most %d beads, and the scene lists %d",
                         FST_BEADS_MOST, fst_grid_base(grid)->bead_count);
@@ -525,12 +525,16 @@ fst_status fst_sweep(const fst_params *params, const char *path, const fst_sweep
     fst_status status = fst_grid_new(params, options->axes, options->axis_count, options->seed, &grid, error);
     if (status != FST_OK)
         return status;
-    const fst_arithmetic arithmetic = params->bead_count ? FST_ARITHMETIC_PORTABLE : options->arithmetic;
+    if (options->levitation)
+        status = fst_grid_ask_levitation(grid, error);
+    const fst_arithmetic arithmetic =
+        fst_grid_row_kind(grid) == FST_ROWS_OF_RUNS ? options->arithmetic : FST_ARITHMETIC_PORTABLE;
     sweep s = {.identity = {grid, options->seed, options->carry, arithmetic, 0},
                .options = options,
                .counts = counts,
                .ranks = {.count = 1, .neighbours = 1}};
-    status = check_options(options, grid, error);
+    if (status == FST_OK)
+        status = check_options(options, grid, error);
     if (status == FST_OK)
         status = fst_refining_of(options, &s.refining, error);
     if (status == FST_OK && options->refine != 0)

@@ -142,31 +142,20 @@ static void *find_image(void *user, const fst_row_job *job, size_t *size)
     return bytes;
 }
 
-/* Tasks of scenes that list beads, until there are none. */
-static fst_status bead_rows(fst_workers *w, const fst_progress *progress, fst_error *error)
+/* Tasks whose rows are no runs of a bead on the plate, until there are none. */
+static fst_status own_rows(fst_workers *w, fst_row_kind kind, const fst_progress *progress, fst_error *error)
 {
     fst_row_job job;
-    while (next_task(w, &job) > 0) {
+    fst_status status = FST_OK;
+    while (status == FST_OK && next_task(w, &job) > 0) {
         fst_sweep_record record;
-        fst_beads_result result;
-        fst_error why = {FST_OK, "", ""};
-        fst_beads_options options = fst_default_beads_options();
-        options.progress = progress;
         memset(&record, 0, sizeof record);
         record.point = job.point;
-        record.status = fst_beads_run_scene(&job.params, &options, &result, &why);
-        if (record.status == FST_INTERRUPTED) {
-            *error = why;
-            return FST_INTERRUPTED;
-        }
-        if (record.status == FST_OK)
-            record.beads = fst_beads_row_of(&result);
-        (void)snprintf(record.result.reason, sizeof record.result.reason, "%.255s",
-                       record.status == FST_OK ? result.reason : why.sentence);
-        fst_beads_free(&result);
-        hand_over(w, &record);
+        status = fst_own_row(kind, &job.params, progress, &record, error);
+        if (status == FST_OK)
+            hand_over(w, &record);
     }
-    return FST_OK;
+    return status;
 }
 
 /* Wait for a task; 0: no more will come. */
@@ -185,6 +174,7 @@ static void *labour(void *user)
     fst_workers *w = user;
     fst_error error = {FST_OK, "", ""};
     const fst_progress progress = {w, answer};
+    const fst_row_kind kind = fst_grid_row_kind(w->identity->grid);
     const fst_row_work work = {.user = w,
                                .arithmetic = w->identity->arithmetic,
                                .lanes = w->plan.lanes,
@@ -195,8 +185,8 @@ static void *labour(void *user)
         .user = w, .seconds = w->plan.checkpoint_seconds, .save = save_image, .find = find_image};
     fst_status status = FST_OK;
     while (status == FST_OK && wait_for_task(w))
-        status = fst_grid_base(w->identity->grid)->bead_count ? bead_rows(w, &progress, &error)
-                                                              : fst_rows_with_images(&work, &images, &error);
+        status = kind == FST_ROWS_OF_RUNS ? fst_rows_with_images(&work, &images, &error)
+                                          : own_rows(w, kind, &progress, &error);
     pthread_mutex_lock(&w->lock);
     if (status != FST_OK && status != FST_INTERRUPTED && w->status == FST_OK) {
         w->status = status;

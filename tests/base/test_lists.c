@@ -3,6 +3,7 @@
  * labels: memcheck */
 #include "physics.h"
 
+#include <festoon/beads.h>
 #include <festoon/festoon_tools.h>
 
 /* Each name stands once among its list's words, at the place that is its number. */
@@ -48,6 +49,7 @@ static void test_names(void **unused)
     CHECK(FST_FIGURES, FIGURE)
     CHECK(FST_FIELDS, FIELD)
     CHECK(FST_COLOURS, COLOUR)
+    CHECK(FST_FLOATINGS, FLOATING)
     assert_string_equal(fst_regime_name(FST_REGIME_CHAOTIC), "chaotic");
     assert_string_equal(fst_end_name(FST_END_LOST), "lost");
     assert_string_equal(fst_end_name(FST_END_COUNT), "unknown");
