@@ -208,7 +208,7 @@ static fst_status levitation_row(const fst_params *params, const fst_progress *p
     record->levitation.places = (int)list.count;
     for (int side = 0; side < 2 && status == FST_OK; ++side) {
         const fst_levitation *best = fst_levitation_best(params, &list, side);
-        record->levitation.side[side].word = fst_levitation_word(best);
+        record->levitation.side[side].word = (int)fst_levitation_word(best);
         record->levitation.side[side].height_mm = best ? best->height_mm : NAN;
         record->levitation.side[side].tilt_deg = best ? best->tilt_deg : NAN;
         record->levitation.side[side].gap_mm = best ? best->gap_mm : NAN;
