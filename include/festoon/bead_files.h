@@ -1,9 +1,9 @@
-/* bead_files.h - what a run of several beads leaves: a sentence, JSON, and trajectories in files. */
+/* bead_files.h - what a run of several beads leaves: a sentence, JSON, trajectories in files, and figures of these. */
 #ifndef FESTOON_BEAD_FILES_H
 #define FESTOON_BEAD_FILES_H
 
 #include <festoon/beads.h>
-#include <festoon/look.h>
+#include <festoon/charts.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -63,8 +63,31 @@ FST_API void fst_beads_table_free(fst_beads_table *table);
 /* The numbers of a bead in a row of it. */
 FST_API const double *fst_beads_table_state(const fst_beads_table *table, size_t row, int bead);
 
+/* A vector of a bead from its number `from` on (0: place, 3: velocity, 6: moment, 9: angular velocity) on the laboratory's
+ * axes, or on those of the turning magnet. */
+FST_API void fst_beads_table_vector(const fst_beads_table *table, size_t row, int bead, int from,
+                                    int from_magnet, double vector[3]);
+
+/* The rows first <= row < last of one bead, as of a trajectory of it alone; free it with fst_table_free().  Columns that
+ * need the field are absent (NULL). */
+FST_API fst_status fst_beads_table_alone(const fst_beads_table *table, int bead, size_t first, size_t last,
+                                         struct fst_table *alone, fst_error *error);
+
 /* Whether the trajectory in a file is such a one: of several beads, or of one in a world, which no fst_table holds. */
 FST_API fst_status fst_trajectory_has_beads(const char *path, int *has_beads, fst_error *error);
+
+/* ------------------------------------------------------------------ figures */
+
+/* The figure of kind `path` or `groups`, as fst_figure_trajectory() draws others, and its chart, which fst_chart_free()
+ * frees.  Of the options a path takes from_magnet and zoom, both from, to, title and units; a path is shown from the
+ * discard on for as long as makes a good picture, groups from the start to the end. */
+FST_API fst_status fst_figure_beads(const fst_beads_table *table, const char *out,
+                                    const struct fst_figure_options *options, fst_error *error);
+FST_API fst_status fst_chart_of_beads(const fst_beads_table *table, const struct fst_figure_options *options,
+                                      fst_chart **chart, fst_error *error);
+
+/* The colour of a bead in all pictures; colours come again after FST_BEADS_MOST beads. */
+FST_API fst_colour fst_bead_colour(int bead);
 
 #ifdef __cplusplus
 }

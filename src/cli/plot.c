@@ -4,14 +4,16 @@
 
 #include "cli/command.h"
 
+#include <festoon/bead_files.h>
+
 static const option options[] = {
     {"output", 'o', "FIG", "the figure: FIG.svg, .pdf or .png; script and data are left beside it"},
     {"kind", '\0', FST_WORDS(FST_FIGURES),
      "of a trajectory: path (of the bead in the laboratory), local-n (of the moment in the local frame),\n"
      "radius-field (r and |B| against Phi), time (columns against time), section (Poincare section: one\n"
-     "column against another where Phi passes 90 degrees) or ramp (columns against the drive of a ramp, for "
+     "column against another where Phi passes 90 degrees), ramp (columns against the drive of a ramp, for "
      "which\n"
-     "it is the kind without this option)"},
+     "it is the kind without this option); of several beads: path or groups (distances, contacts and loads)"},
     {"key", '\0', "KEY,...",
      "of a sweep: the keys of festoon run to draw (regime: a map of regimes); of the kinds time, section and\n"
      "ramp: the columns of the trajectory (r,n_z)"},
@@ -19,6 +21,7 @@ static const option options[] = {
     {"colour", '\0', "COLUMN", "the column that colours the path: n_z, slip, angle, ..."},
     {"arrows", '\0', NULL, "draw arrows of the horizontal moment"},
     {"no-arrows", '\0', NULL, "draw no arrows"},
+    {"frame", '\0', "lab|magnet", "from where the path is seen: the laboratory, or the turning magnet"},
     {"inset", '\0', NULL, "draw the moment's path in the local frame in the middle of the bead's path"},
     {"from", '\0', "P", "first drive period shown"},
     {"to", '\0', "P", "last drive period shown"},
@@ -73,7 +76,7 @@ static fst_status read_figure(const arguments *given, fst_figure_options *figure
     const char *kind = option_value(given, "kind"), *colour = option_value(given, "colour");
     const value_option rows[] = {{"from", FST_UNIT_NUMBER, &figure->from, 0, 0},
                                  {"to", FST_UNIT_NUMBER, &figure->to, 0, 0}};
-    const char *zoom = option_value(given, "zoom");
+    const char *zoom = option_value(given, "zoom"), *frame = option_value(given, "frame");
     int with = option_value(given, "arrows") != NULL, without = option_value(given, "no-arrows") != NULL;
     if (with && without)
         return fail(error, FST_BAD_INPUT, "", "--arrows and --no-arrows contradict each other");
@@ -85,6 +88,8 @@ static fst_status read_figure(const arguments *given, fst_figure_options *figure
     figure->kind = (fst_figure_kind)place;
     if (status == FST_OK && figure->kind != FST_FIGURE_PATH)
         status = refuse_others(given, "kind|key|units|colour|from|to", "this kind of figure", error);
+    if (status == FST_OK)
+        status = read_choice("--frame", frame, "frame", "lab|magnet", &figure->from_magnet, error);
     if (status == FST_OK && colour)
         status = read_colour(colour, &figure->colour, error);
     if (status == FST_OK)
@@ -178,6 +183,24 @@ static fst_status plot_points(const arguments *given, const char *path, const ch
     return FST_OK;
 }
 
+/* Draw a trajectory of several beads. */
+static fst_status plot_beads(const arguments *given, const fst_figure_options *figure, const char *path,
+                             const char *to, fst_error *error)
+{
+    fst_beads_table table;
+    fst_status status = refuse_others(given, "kind|units|frame|from|to|zoom",
+                                      "a trajectory of several beads or in a world", error);
+    if (status == FST_OK)
+        status = fst_beads_trajectory_read(path, &table, error);
+    if (status != FST_OK)
+        return status;
+    status = fst_figure_beads(&table, to, figure, error);
+    if (status == FST_OK)
+        tell_written(to, table.complete ? "" : " (of an interrupted run)");
+    fst_beads_table_free(&table);
+    return status;
+}
+
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     (void)out;
@@ -195,18 +218,23 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (fst_is_sweep(path) || ends_in(path, ".db"))
         return plot_sweep(given, path, to, error);
     char words[KEYS_SIZE];
-    fst_status status = refuse_others(given, "kind|key|units|colour|arrows|no-arrows|inset|from|to|zoom",
+    int has_beads = 0;
+    fst_status status = refuse_others(given, "kind|key|units|colour|arrows|no-arrows|inset|frame|from|to|zoom",
                                       "a trajectory", error);
     if (status == FST_OK)
         status = read_figure(given, &figure, error);
     if (status == FST_OK)
         status = read_columns(given, &figure, words, error);
     if (status == FST_OK)
+        status = fst_trajectory_has_beads(path, &has_beads, error);
+    if (status == FST_OK && has_beads)
+        return plot_beads(given, &figure, path, to, error);
+    if (status == FST_OK)
         status = fst_trajectory_read(path, &table, error);
     if (status != FST_OK)
         return status;
     if (!option_value(given, "kind") && !option_value(given, "arrows") && !figure.colour && !figure.inset &&
-        isnan(figure.zoom[0]))
+        isnan(figure.zoom[0]) && !option_value(given, "frame"))
         figure.kind = fst_figure_kind_of(&table);
     status = fst_figure_trajectory(&table, to, &figure, error);
     if (status == FST_OK)

@@ -405,6 +405,18 @@ static int number_letters(const fst_chart_panel *panel)
     return whole + decimals + (low < 0.0);
 }
 
+/* Letters of the longest word of tics. */
+static int longest_word(const char *tics)
+{
+    int longest = 0, length = 0, in_word = 0;
+    for (const char *c = tics; *c; ++c) {
+        in_word ^= *c == '\'';
+        length = in_word ? length + ((*c & 0xc0) != 0x80) : 0; /* bytes that begin a letter */
+        longest = length > longest ? length : longest;
+    }
+    return longest;
+}
+
 static layout lay_out(const fst_chart *chart)
 {
     layout l = {.left = LEFT, .right = RIGHT};
@@ -421,8 +433,10 @@ static layout lay_out(const fst_chart *chart)
     }
     l.left += (labels - 1) * LINE;
     for (int p = 0; p < chart->panel_count; ++p)
-        if (chart->panels[p].tics) /* these are words */
-            l.left = 2 * LEFT + 8;
+        if (chart->panels[p].tics) { /* these are words */
+            const int beside = NUMBERS + (int)(LETTER * longest_word(chart->panels[p].tics));
+            l.left = beside > l.left ? beside : l.left;
+        }
     if (chart->square)
         l.panel = FST_FIGURE_WIDTH - l.left - l.right;
     const int foot = FOOT + LINE * (fst_lines_of(chart->x_label, FST_FIGURE_WIDTH - l.left - l.right) - 1);

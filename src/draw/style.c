@@ -1,6 +1,8 @@
 /* style.c - colours, palettes and logarithmic axes of all figures. */
 #include "draw/style.h"
 
+#include <festoon/bead_files.h>
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -11,6 +13,14 @@ const char *fst_colour_code(fst_colour colour)
     static const char *const codes[] = {FST_COLOURS(CODE)};
 #undef CODE
     return codes[colour];
+}
+
+fst_colour fst_bead_colour(int bead)
+{
+    static const fst_colour colours[FST_BEADS_MOST] = {
+        FST_COLOUR_BLUE,   FST_COLOUR_VERMILION, FST_COLOUR_GREEN, FST_COLOUR_ORANGE,
+        FST_COLOUR_PURPLE, FST_COLOUR_SKY,       FST_COLOUR_WINE,  FST_COLOUR_OLIVE};
+    return colours[bead % FST_BEADS_MOST];
 }
 
 void fst_unit_symbols(const char *unit, char *text, size_t size)

@@ -115,7 +115,8 @@ static const struct {
                                [FST_FIGURE_RADIUS_FIELD] = {INFINITY, 6.0},
                                [FST_FIGURE_TIME] = {INFINITY, 8.0},
                                [FST_FIGURE_SECTION] = {INFINITY, INFINITY},
-                               [FST_FIGURE_RAMP] = {INFINITY, INFINITY}};
+                               [FST_FIGURE_RAMP] = {INFINITY, INFINITY},
+                               [FST_FIGURE_GROUPS] = {INFINITY, INFINITY}};
 
 /* Find the rows that are shown. */
 static fst_status choose_rows(fst_view *view, const fst_figure_options *options, fst_error *error)
