@@ -218,6 +218,9 @@ static fst_status check_effects(const fst_grid *grid, fst_error *error)
     if (axis_over(grid, "run.samples"))
         return fst_fail(error, FST_BAD_INPUT, AXES,
                         "run.samples concerns written trajectories only and changes nothing in a row");
+    if (axis_over(grid, "plate.tilt_azimuth") && grid->base.plate_tilt == 0 && !axis_over(grid, "plate.tilt"))
+        return fst_fail(error, FST_BAD_INPUT, AXES,
+                        "plate.tilt_azimuth has no effect with this plate.tilt: give one");
     for (int i = 0; i < grid->axis_count; ++i) {
         const int bead = fst_param_bead(grid->axes[i].param);
         if (bead >= grid->base.bead_count)

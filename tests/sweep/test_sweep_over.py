@@ -38,7 +38,9 @@ OF_WORLDS = {"plate.shape", "plate.bowl_radius", "medium.density", "medium.visco
              "medium.drag_coefficient", "medium.added_mass", "medium.drag_rate", "medium.spin_drag_rate",
              "medium.quadratic_drag",
              "plate.tilt", "plate.tilt_azimuth", "drive.waveform", "drive.amplitude", "drive.chirp", "wave.length",
-             "wave.amplitude", "wave.ratio", "world.frame"}  # which no row of one bead takes
+             "wave.amplitude", "wave.ratio", "world.frame"}  # by which rows are of worlds
+ALONE = {"plate.bowl_radius", "plate.tilt_azimuth", "drive.amplitude", "drive.chirp", "medium.drag_coefficient",
+         "medium.added_mass"}  # they need another key
 DRY = "friction.law=coulomb"
 NEEDS = {"bead.a": ["bead.material=paramagnetic"], "bead.b": ["bead.material=mixed"], "friction.mu_static": [DRY],
          "friction.stribeck_speed": [DRY, "friction.mu_static=0.4"], "friction.rolling_resistance": [DRY],
@@ -85,8 +87,9 @@ class Keys(Over):
                          WHOLE | set(REFUSED))
         for key in OF_BEADS:
             self.says("choose several", f"{key}=" + ("exact,stepping" if key == "run.method" else "1,2"))
-        for key in OF_WORLDS:
-            self.says(f"{key} is known to `run` and `locked`", f"{key}=" + (",".join(keys[key]["names"]) if keys[key]["names"] else "0.1,0.4"))
+        for key in sorted(OF_WORLDS):
+            with self.subTest(key=key):
+                self.check_world(key, keys[key]["names"] or ["0.1", "0.4"])
         self.says("choose stepping", "run.step=1e-5,1e-4")
         for key in RANGES:
             with self.subTest(key=key):
@@ -105,6 +108,17 @@ class Keys(Over):
                     self.says("is a choice", f"{key}={row['names'][0]}:{row['names'][-1]}:2")
         for key, sentence in REFUSED.items():
             self.says(sentence, f"{key}=1:2:2")
+
+    def check_world(self, key, values):
+        """A row says what the key does, or why it can do nothing by itself."""
+        if key.split(".")[0] == "wave" or key in ALONE:
+            return self.says(f"{key} has no effect with this", f"{key}=" + ",".join(values))
+        rows = self.table(f"{key}=" + ",".join(values))
+        self.assertEqual([str(row[key]) for row in rows], values)
+        for row in rows:
+            self.assertIn("frame", row)
+            self.assertEqual(row["status"] == "done", row["regime"] is not None)
+            self.assertTrue(row["reason"])
 
     def check_real(self, key, unit_of_key):
         text, low, high = RANGES[key]
