@@ -37,14 +37,16 @@ enum { FST_BEAD_NUMBERS = 12, FST_BEAD_TOUCHES = 36, FST_BEADS_EVENTS = 1000 };
     ROW(BEAD_GROUP_RING, "ring", "a chain that is closed")                                                     \
     ROW(BEAD_GROUP_CLUSTER, "cluster", "any other group")
 
+/* Then: the colour in figures, FST_COLOUR_*. */
 #define FST_BEADS_OUTCOMES(ROW)                                                                                \
-    ROW(BEADS_APART, "apart", "no bead touches another")                                                       \
-    ROW(BEADS_WALKER, "walker", "the largest group turns with the magnet, and its centre circles otherwise")   \
-    ROW(BEADS_BAR, "bar", "the largest group turns with the magnet about the axis")                            \
-    ROW(BEADS_RING, "ring", "the largest group is a ring")                                                     \
-    ROW(BEADS_CLUSTER, "cluster", "the largest group is neither chain nor ring")                               \
-    ROW(BEADS_EJECTED, "ejected", "a bead passed the plate's edge")                                            \
-    ROW(BEADS_UNDECIDED, "undecided", "the motion has not settled")
+    ROW(BEADS_APART, "apart", "no bead touches another", BLUE)                                                 \
+    ROW(BEADS_WALKER, "walker", "the largest group turns with the magnet, and its centre circles otherwise",   \
+        VERMILION)                                                                                             \
+    ROW(BEADS_BAR, "bar", "the largest group turns with the magnet about the axis", GREEN)                     \
+    ROW(BEADS_RING, "ring", "the largest group is a ring", PURPLE)                                             \
+    ROW(BEADS_CLUSTER, "cluster", "the largest group is neither chain nor ring", ORANGE)                       \
+    ROW(BEADS_EJECTED, "ejected", "a bead passed the plate's edge", BLACK)                                     \
+    ROW(BEADS_UNDECIDED, "undecided", "the motion has not settled", GREY)
 
 typedef enum { FST_BEAD_EVENT_LIST(FST_ROW_ENUM) FST_BEAD_EVENTS } fst_bead_event_kind;
 typedef enum { FST_BEAD_GROUPS(FST_ROW_ENUM) FST_BEAD_GROUP_KINDS } fst_bead_group_kind;

@@ -28,7 +28,7 @@ static int choose_keys(fst_row_kind kind, int varied, const char *keys[USUAL])
 {
     static const char *const curves[][USUAL] = {
         [FST_ROWS_OF_RUNS] = {"mean_r", "std_r", "mean_alpha_dot", "regime"},
-        [FST_ROWS_OF_BEADS] = {"mean_r", "std_r", "mean_alpha_dot", "regime"},
+        [FST_ROWS_OF_BEADS] = {"outcome", "mean_r", "centre_rate", "axis_rate"},
         [FST_ROWS_OF_WORLDS] = {"mean_r", "mean_alpha_dot", "regime"},
         [FST_ROWS_OF_LEVITATION] = {"below_height_mm", "below_growth_per_s", "above_height_mm",
                                     "above_growth_per_s"}};
@@ -37,7 +37,9 @@ static int choose_keys(fst_row_kind kind, int varied, const char *keys[USUAL])
     for (; count < USUAL && curves[kind][count] && !is_map; ++count)
         keys[count] = curves[kind][count];
     if (is_map)
-        keys[count++] = kind == FST_ROWS_OF_LEVITATION ? "below" : "regime";
+        keys[count++] = kind == FST_ROWS_OF_LEVITATION ? "below"
+                        : kind == FST_ROWS_OF_BEADS    ? "outcome"
+                                                       : "regime";
     return count;
 }
 

@@ -164,14 +164,18 @@ void fst_sweep_choice_tics(const fst_sweep_axis *axis, char *tics, size_t size)
 }
 
 #define COLOUR(NAME, name, doc, colour) FST_COLOUR_##colour,
-static const fst_colour regime_colours[] = {FST_REGIMES(COLOUR)}, floating_colours[] = {FST_FLOATINGS(COLOUR)};
+static const fst_colour regime_colours[] = {FST_REGIMES(COLOUR)}, floating_colours[] = {FST_FLOATINGS(COLOUR)},
+                        outcome_colours[] = {FST_BEADS_OUTCOMES(COLOUR)};
 #undef COLOUR
 
 const fst_sweep_names *fst_sweep_names_of(const char *key)
 {
     static const fst_sweep_names regimes = {FST_REGIME_COUNT, FST_WORDS(FST_REGIMES), regime_colours},
-                                 floating = {FST_FLOATING_COUNT, FST_WORDS(FST_FLOATINGS), floating_colours};
+                                 floating = {FST_FLOATING_COUNT, FST_WORDS(FST_FLOATINGS), floating_colours},
+                                 outcomes = {FST_BEADS_OUTCOME_COUNT, FST_WORDS(FST_BEADS_OUTCOMES),
+                                             outcome_colours};
     return strcmp(key, "regime") == 0                               ? &regimes
+           : strcmp(key, "outcome") == 0                            ? &outcomes
            : strcmp(key, "below") == 0 || strcmp(key, "above") == 0 ? &floating
                                                                     : NULL;
 }

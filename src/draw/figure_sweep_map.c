@@ -209,7 +209,10 @@ static fst_legend make_legend(const map *m, const fst_sweep_quantity *quantity, 
     fst_legend legend = {.count = 0};
     const int64_t points = fst_grid_points(m->table->grid), blank = blank_points(m);
     char words[3][128];
-    fst_sweep_words(strcmp(quantity->key, "regime") == 0 ? "Regimes of motion" : quantity->label, words[0]);
+    fst_sweep_words(strcmp(quantity->key, "regime") == 0    ? "Regimes of motion"
+                    : strcmp(quantity->key, "outcome") == 0 ? "Outcomes of several beads"
+                                                            : quantity->label,
+                    words[0]);
     fst_sweep_words(m->axes[1].label, words[1]);
     fst_sweep_words(m->axes[0].label, words[2]);
     (void)snprintf(legend.title, sizeof legend.title, "%.80s over %.80s and %.80s", words[0], words[1],

@@ -36,6 +36,9 @@ static const word parameters[] = {
 };
 
 static const word results[] = {
+    {"outcome", "outcome"},
+    {"centre_rate", "rate of the centre"},
+    {"axis_rate", "rate of the axis"},
     {"mean_r", "mean radius ⟨r⟩"},
     {"std_r", "deviation δr"},
     {"min_r", "least r"},

@@ -169,6 +169,32 @@ class Beads(unittest.TestCase):
         self.assertIn("no contacts are known", script)
         self.refused("more than 8 beads", "--kind", "groups", name="many.csv")
 
+    def test_sweeps(self):
+        """A map of outcomes has the colours of their table, a cell for each run; over one axis the names are an ordinate."""
+        scene = self.folder / "two.yaml"
+        scene.write_text(SCENE.replace(", {start.phi: 180 deg}]", "]"), encoding="utf-8")
+        over = ("--over", "beads[1].start.phi=28deg:180deg:2", "--over", "drive.frequency=20Hz:30Hz:2")
+        colours = {"apart": "#0072b2", "walker": "#d55e00", "bar": "#009e73", "undecided": "#888888"}
+        for axes in (2, 1):
+            name = self.folder / f"{axes}.db"
+            status, _, messages = run("sweep", scene, *over[:2 * axes], "-o", name)
+            self.assertEqual(status, 0, messages)
+            _, rows, _ = run("export", name, "--csv", "--key", "outcome")
+            found = [row.split(",")[axes] for row in rows.splitlines()[1:]]
+            self.assertEqual(len(found), 2 ** axes)
+            self.assertIn("apart", found)
+            script, curves = self.plot(name=name.name)
+            if axes == 2:
+                self.assertIn("Outcomes of several beads", script)
+                for outcome in set(found):
+                    self.assertIn(f"lc rgb '{colours[outcome]}'", script)
+                    self.assertIn(f"set label '{outcome}'", script)
+            else:
+                self.assertIn("'apart' 0, 'walker' 1, 'bar' 2, 'ring' 3", script)
+                (_, points), = [curve for curve in curves["x y"] if curve[0] == "panel1-curve1"]
+                names = ("apart", "walker", "bar", "ring", "cluster", "ejected", "undecided")
+                self.assertEqual([names[int(y)] for piece in points for _, y in piece], found)
+
     def test_refusals(self):
         self.refused("--colour does not belong to a trajectory of several beads", "--colour", "slip")
         self.refused("--inset does not belong", "--inset")
