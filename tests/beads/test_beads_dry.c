@@ -1,7 +1,8 @@
 /* Several beads under dry friction, in modes: against single beads, exact solutions and a regularised law; symmetries,
  * what is kept, and paradoxes.
  *
- * tests: beads/hold.c beads/linear.c beads/select.c beads/impact.c beads/events.c beads/flow.c beads/run.c beads/setup.c */
+ * tests: beads/hold.c beads/linear.c beads/select.c beads/impact.c beads/events.c beads/flow.c beads/run.c beads/setup.c
+ * labels: numbers */
 #include "beads/hold.h"
 #include "beads/impact.h"
 #include "beads/select.h"

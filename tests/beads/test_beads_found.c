@@ -1,7 +1,8 @@
 /* What a start of several beads leads to: locked bars, the orbit of an opposite pair, the drives at which bars sway or
  * break, and refusals.
  *
- * tests: orbit/beads_scene.c orbit/beads_orbit.c orbit/beads_branch.c */
+ * tests: orbit/beads_scene.c orbit/beads_orbit.c orbit/beads_branch.c
+ * labels: numbers */
 #include "some_beads.h"
 
 static const double EPS = 2.5 / 23;

@@ -1,7 +1,8 @@
 /* Parameters from synthetic tables: what went in comes out, with errors that cover; wild numbers are named;
  * what cannot be known is said.  test_fit_long.c has the coverage of a hundred fits.
  * tests: fit/minpack.c fit/fit.c fit/search.c fit/problem.c fit/rows.c fit/space.c fit/errors.c fit/outliers.c fit/rivals.c
- *   fit/words.c fit/curve.c fit/minpack_module.c fit/matrix.c */
+ *   fit/words.c fit/curve.c fit/minpack_module.c fit/matrix.c
+ * labels: numbers */
 #include "numeric.h"
 #include "fit_tables.h"
 

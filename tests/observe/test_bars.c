@@ -1,6 +1,7 @@
 /* Error bars of means that keep the limit: librations in runs of any length, orbits with the symmetry S2 at
  * loose tolerances; and verdicts that a loose tolerance cannot tell.
- * tests: observe/means.c observe/swings.c study/drift.c */
+ * tests: observe/means.c observe/swings.c study/drift.c
+ * labels: numbers */
 #include "few_rows.h"
 #include "physics.h"
 
