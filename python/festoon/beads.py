@@ -425,12 +425,11 @@ class BeadsTrajectory(Told):
         ax = _style.axes(ax, 5.4, 5.8)
         shown = (self.drive_turns >= (-math.inf if begin is None else begin)) & (self.drive_turns <= (math.inf if end is None else end))
         places, scales = self.places(units)[shown], Scales(self.setup._params, units)
-        names = ("blue", "vermilion", "green", "purple", "orange", "sky", "grey", "black")
         factor, unit = scales.factor("mean_r", "l")
         from matplotlib.patches import Circle
 
         for i in range(places.shape[1]):
-            colour = _style.colour(names[i % len(names)])
+            colour = text_of(lib.fst_colour_code(lib.fst_bead_colour(i)))
             ax.plot(places[:, i, 0], places[:, i, 1], color=colour, linewidth=1.2, label=f"bead {i}")
             if len(places):
                 radius = factor * self.setup.alone(i).groups.eps

@@ -209,14 +209,6 @@ static int put_beads(painting *p, double *reach)
 
 /* ------------------------------------------------------------------ contacts */
 
-int fst_beads_touch_in(const fst_beads_table *table, size_t row, const int beads[2])
-{
-    for (size_t k = table->first[row]; k < table->first[row + 1]; ++k)
-        if (table->touches[k].beads[0] == beads[0] && table->touches[k].beads[1] == beads[1])
-            return 1;
-    return 0;
-}
-
 /* Mark where the pairs touch in `row` that do not in `other`; of equal rows all. */
 static void mark(const painting *p, size_t row, size_t other, pen *to)
 {
