@@ -120,6 +120,8 @@ static fst_status tell_exact(run *r, double from, double to, fst_error *error)
     fst_bead_touch touches[BEADS_CONTACTS];
     double y[BEADS_DIM];
     fst_status status = FST_OK;
+    if (r->world.surrounded) /* the piece of the drive in which this step lies */
+        (void)fst_waveform_enter(&r->world.around.drive, from);
     while (status == FST_OK && to > from) {
         const double next = (double)r->sampled * r->spacing;
         if (next > to + EARLY * r->spacing)
@@ -130,6 +132,7 @@ static fst_status tell_exact(run *r, double from, double to, fst_error *error)
         else
             beads_method_evaluate_dense((int)numbers, &r->flow.step.dense[0][0], (BEADS_DIM + 1) / 2 * 2,
                                         fmin((next - from) / (to - from), 1.0), y);
+        y[numbers + BEADS_TIME] = fmin(next, to) - r->world.now;
         beads_look_at(&r->world, modes, y, &look);
         const int count = closed_contacts(&r->world, modes, &look, touches);
         status = tell_sample(r, fmin(next, to), y, count, touches, error);

@@ -70,6 +70,21 @@ class Worlds(Case):
             if frame == "laboratory":  # samples change nothing
                 self.assertEqual(plain["final_lab"], told["final_lab"])
 
+    def test_loads_of_samples_are_the_same_in_both_frames(self):
+        """In the laboratory's frame the field at a sample is that of the sample's time."""
+        loads = {}
+        for frame in ("turning", "laboratory"):
+            path = self.path(frame + ".csv")
+            self.good("run", self.scene("bowl"), "--set", f"world.frame={frame}", "--set", "run.periods=4", "--set",
+                      "run.discard=1", "--csv", path)
+            with open(path, encoding="utf-8") as file:
+                table = [line.strip().split(",") for line in file if not line.startswith("#")]
+            self.assertEqual(table[0][-1], "load_0 [l gamma^2]")
+            loads[frame] = [float(row[-1]) for row in table[1:]]
+        self.assertEqual(len(loads["turning"]), 257)
+        for one, other in zip(*loads.values()):
+            self.assertAlmostEqual(one, other, delta=1e-10)
+
     def test_bowl_and_water(self):
         for name in ("bowl", "water"):
             run = json.loads(self.good("run", self.scene(name), "--set", "run.periods=40", "--json"))
