@@ -209,7 +209,8 @@ EXPORT(lab_row_count) int lab_row_count(const lab *l)
 /* What a row behind the table belongs to, a coil's with the vectors; src/core.js has the same numbers. */
 enum { OF_NOTHING, OF_PART, OF_VECTOR, OF_BEAD };
 
-/* The table has rows for all parts and coils that there may be: of those that there are not, a scene says nothing. */
+/* What a row belongs to.  The table has a row for every part and coil that a scene may have; the rows of those that this
+ * scene does not have belong to nothing. */
 EXPORT(lab_row_of) int lab_row_of(const lab *l, int index)
 {
     const int part = fst_param_part(index);

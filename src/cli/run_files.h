@@ -18,7 +18,7 @@ typedef struct bead_outputs {
     const char *paths[2];
 } bead_outputs;
 
-/* Open those that are asked for; `options` then say that samples go there. */
+/* Open the files that -o and --csv ask for, and make `options` send every sample to them. */
 fst_status open_bead_files(const arguments *given, const fst_params *scene, bead_outputs *to,
                            fst_beads_options *options, fst_error *error);
 

@@ -26,6 +26,8 @@ class Documentation(unittest.TestCase):
         curves = [[tuple(map(float, line.split())) for line in block.splitlines() if line and line[0] != "#"]
                   for block in data.split("\n\n\n") if re.search(r"^# panel\d+-curve", block, re.M)]
         self.assertEqual((len(curves), len(rows)), (2, len(curves[0])))
+        for row, one, other in zip(rows, *curves):  # the bars stand as far to the left as to the right
+            self.assertAlmostEqual(float(row[0]), (one[0] + other[0]) / 2)
         for column, curve in enumerate(curves):
             for row, (strength, middle, lowest, percent) in zip(rows, curve):
                 self.assertAlmostEqual(float(row[0]), strength, delta=0.02)

@@ -553,12 +553,7 @@ class Paper(ByHand, unittest.TestCase):
         gone = 100 * sum(r["outcome"] in ("ejected", "lifted") for r in window) / len(window)
         self.close_to(value["ejection", "bar", "dry"], gone, 1e-12, window)
 
-
-
-if __name__ == "__main__":
-    unittest.main()
-
-    # ------------------------------------------------------------ elsewhere
+    # ------------------------------------------------------------ without LAPACK, and on a phone
     def test_without_lapack(self):
         """Without LAPACK a sentence stands for every number that needs orbits, and the rest of the paper is there."""
         scratch = tempfile.TemporaryDirectory()

@@ -63,6 +63,12 @@ class Heads(unittest.TestCase):
         unnamed = sorted(name for name in files - named.keys() if name.endswith((".c", ".inl")))
         self.assertEqual(unnamed, [], 'no test names these files behind "tests:" in the comment at its head')
 
+    def test_no_test_stands_behind_the_end(self):
+        """unittest.main() ends the program: what stands behind it would never run."""
+        for path in self.TESTS:
+            behind = path.read_text(encoding="utf-8").partition('if __name__ == "__main__":\n')[2]
+            self.assertNotIn("def test", behind, path)
+
     def test_labels_are_known_and_tests_lie_in_rooms(self):
         known = re.findall(r"^# {3}([a-z-]+)(?:, ([a-z]+))? {2,}", (SOURCE / "tests/CMakeLists.txt").read_text(), re.M)
         known = {word for words in known for word in words} | {"siconos"}
