@@ -508,6 +508,10 @@ def read(path: Path) -> BeadsTrajectory:
     table = ffi.gc(ffi.new("fst_beads_table *"), lib.fst_beads_table_free)
     with Watch(None) as watch:
         watch.call_apart(lib.fst_beads_trajectory_read, path_bytes(path), table)
+    if not table.scene.bead_count:
+        raise BadInput(
+            os.fsdecode(path), "this is a trajectory of one bead in a world, which `festoon plot` draws; its CSV can be read"
+        )
     setup = Beads(take_text(lib.fst_scene_text(ffi.addressof(table, "scene"), False)) + "\n")
     rows, beads = int(table.rows), int(table.count)
     t, turns = (np.array(owned_array(pointer, rows, "f8", table)) for pointer in (table.t, table.drive_turns))

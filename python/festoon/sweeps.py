@@ -576,8 +576,10 @@ def read_sweep(path: Path) -> Sweep:
             warnings.warn(error.sentence, stacklevel=2)
         with open(out, encoding="utf-8") as file:
             given = json.load(file)
-    if given and "regime" not in given[0]:
-        raise BadInput(os.fsdecode(path), "this is a sweep of several beads: festoon.export() writes its rows")
+    if given and "symmetry" not in given[0]:
+        raise BadInput(
+            os.fsdecode(path), "this is a sweep of several beads, or of one in a world: festoon.export() writes its rows"
+        )
     batch = ffi.gc(lib.pyf_batch_new(grid, lib.FST_ARITHMETIC_PORTABLE, 0), lib.pyf_batch_free)
     if not batch:
         raise OutOfMemory("sweep", "no memory for the rows")

@@ -79,6 +79,22 @@ def test_a_sweep_of_the_program_is_exported(program, pair, tmp_path):
     assert len((tmp_path / "s.csv").read_text().splitlines()) >= 3
 
 
+@pytest.mark.parametrize("world", ["levitation", "bowl", "compass", "wave"])
+def test_files_of_a_world_are_told_in_words(program, world, tmp_path):
+    """One bead in a world: the module does not read its files, and says what does."""
+    def start(*words):
+        subprocess.run([program, *words], cwd=tmp_path, check=True, capture_output=True)
+
+    start("init", "world.yaml", "--world", world)
+    start("run", "world.yaml", "--set", "run.duration=0.05", "-o", "t.h5")
+    start("sweep", "world.yaml", "--set", "run.duration=0.05", "--over", "bead.inertia=0.4:0.5:2", "-o", "s.db")
+    for name, what in (("t.h5", "trajectory of one bead in a world"), ("s.db", "sweep of several beads, or of one in a world")):
+        with pytest.raises(fs.BadInput, match=what):
+            fs.read(tmp_path / name)
+    fs.export(tmp_path / "s.db", tmp_path / "s.csv")
+    assert (tmp_path / "s.csv").read_text().count("\n") >= 3
+
+
 def test_vectors_of_a_start():
     bead = fs.Bead(start__position=["20 mm", "1 mm"], start__n=[None, 0, 1])
     assert repr(bead) == "Bead(start__position=[0.02, 0.001, None], start__n=[None, 0.0, 1.0])"
