@@ -86,6 +86,22 @@ FST_API fst_status fst_figure_beads(const fst_beads_table *table, const char *ou
 FST_API fst_status fst_chart_of_beads(const fst_beads_table *table, const struct fst_figure_options *options,
                                       fst_chart **chart, fst_error *error);
 
+/* ------------------------------------------------------------------ films */
+
+struct fst_film_options;
+
+/* Films of such a trajectory, as fst_film() and fst_camera_film() make them of one bead: all beads with their poles and
+ * contacts, each with its trail in its colour.  Without a plate the view is from the front; where the magnet is carried
+ * along or the field travels, it goes with the beads.  A camera's truth of several has columns x_0, y_0, u_0, v_0, x_1 ...
+ * FST_BAD_INPUT: a colour of several beads, or a camera without a flat plate. */
+FST_API fst_status fst_film_beads(const fst_beads_table *table, const char *out,
+                                  const struct fst_film_options *options, fst_error *error);
+struct fst_camera_options;
+struct fst_camera_facts;
+FST_API fst_status fst_camera_film_beads(const fst_beads_table *table, const char *out, const char *truth,
+                                         const struct fst_camera_options *options,
+                                         struct fst_camera_facts *facts, fst_error *error);
+
 /* The colour of a bead in all pictures; colours come again after FST_BEADS_MOST beads. */
 FST_API fst_colour fst_bead_colour(int bead);
 

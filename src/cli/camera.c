@@ -86,14 +86,15 @@ static void print_facts(const fst_camera_options *camera, const fst_camera_facts
     (void)fprintf(out, "=%.6gmm\"\n", 1e3 * facts->square);
 }
 
-fst_status film_by_camera(const fst_table *table, const char *to, const fst_camera_options *camera, FILE *out,
-                          fst_error *error)
+fst_status film_by_camera(const fst_table *table, const fst_beads_table *beads, const char *to,
+                          const fst_camera_options *camera, FILE *out, fst_error *error)
 {
     char truth[4096];
     fst_camera_facts facts;
     fst_status status = name_truth(to, truth, sizeof truth, error);
     if (status == FST_OK)
-        status = fst_camera_film(table, to, truth, camera, &facts, error);
+        status = beads ? fst_camera_film_beads(beads, to, truth, camera, &facts, error)
+                       : fst_camera_film(table, to, truth, camera, &facts, error);
     if (status == FST_OK)
         print_facts(camera, &facts, out);
     return status;

@@ -4,6 +4,8 @@
 
 #include "cli/command.h"
 
+#include <festoon/bead_files.h>
+
 /* The options of films by a camera alone. */
 #define CAMERA_OPTIONS                                                                                         \
     {"camera", '\0', NULL, "a film as a camera over the plate takes it, with the truth in FILM.truth.csv"},    \
@@ -29,9 +31,9 @@ const char *camera_option(const arguments *given);
 /* Read these options, and --size, --fps, --from and --to. */
 fst_status read_camera(const arguments *given, fst_camera_options *camera, fst_error *error);
 
-/* Film the trajectory, and print what the film shows. */
-fst_status film_by_camera(const fst_table *table, const char *to, const fst_camera_options *camera, FILE *out,
-                          fst_error *error);
+/* Film the trajectory, or where `beads` is given that of a list, and print what the film shows. */
+fst_status film_by_camera(const fst_table *table, const fst_beads_table *beads, const char *to,
+                          const fst_camera_options *camera, FILE *out, fst_error *error);
 
 /* Read --size. */
 fst_status read_size(const char *text, int *width, int *height, fst_error *error);

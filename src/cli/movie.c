@@ -14,7 +14,7 @@ static const option options[] = {
     {"turn", '\0', "S", "seconds of film for a turn of the magnet (1)"},
     {"from", '\0', "P", "first drive period shown (the beginning)"},
     {"to", '\0', "P", "last drive period shown (20 after the first; camera: the last)"},
-    {"colour", '\0', "COLUMN", "the column that colours the trail: slip, n_z, angle, ..."},
+    {"colour", '\0', "COLUMN", "the column that colours the trail of one bead: slip, n_z, angle, ..."},
     CAMERA_OPTIONS,
     UNITS_OPTION,
     {NULL, '\0', NULL, NULL},
@@ -62,7 +62,9 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     enum { USUAL_PERIODS = 20 };
     fst_film_options film;
     fst_camera_options camera;
-    fst_table table;
+    fst_table table = {.rows = 0};
+    fst_beads_table beads = {.rows = 0};
+    int listed = 0;
     progress_line line;
     const fst_progress progress = {&line, progress_tell};
     const char *path = operand(given), *to = option_value(given, "output");
@@ -77,23 +79,27 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (status == FST_OK)
         status = check_range(by_camera ? camera.from : film.from, by_camera ? camera.to : film.to, error);
     if (status == FST_OK)
-        status = fst_trajectory_read(path, &table, error);
+        status = fst_trajectory_has_beads(path, &listed, error);
+    if (status == FST_OK)
+        status =
+            listed ? fst_beads_trajectory_read(path, &beads, error) : fst_trajectory_read(path, &table, error);
     if (status != FST_OK)
         return status;
     progress_begin(&line);
     if (by_camera) {
         camera.progress = &progress;
-        status = film_by_camera(&table, to, &camera, out, error);
+        status = film_by_camera(&table, listed ? &beads : NULL, to, &camera, out, error);
     } else {
         if (isnan(film.to))
             film.to = (isnan(film.from) ? 0.0 : film.from) + USUAL_PERIODS;
         film.progress = &progress;
-        status = fst_film(&table, to, &film, error);
+        status = listed ? fst_film_beads(&beads, to, &film, error) : fst_film(&table, to, &film, error);
     }
     progress_end(&line);
     if (status == FST_OK)
-        tell_written(to, table.complete ? "" : " (of an interrupted run)");
+        tell_written(to, table.complete || beads.complete ? "" : " (of an interrupted run)");
     fst_table_free(&table);
+    fst_beads_table_free(&beads);
     return status;
 }
 
@@ -103,7 +109,7 @@ const command movie_command = {
     .summary = "Make a film of a trajectory that run -o or run --csv wrote",
     .details =
         "With --camera the film is gray and as quick as the motion: exposure, noise, uneven light, tilt,\n"
-        "rolling shutter and compression are those of a camera, and FILM.truth.csv tells where the bead was.\n"
+        "rolling shutter and compression are those of a camera, and FILM.truth.csv tells where each bead was.\n"
         "It is what festoon track can be tried on.\n",
     .options = options,
     .most_operands = 1,

@@ -12,6 +12,7 @@
 #include "base/number.h"
 #include "base/watch.h"
 #include "film/camera_paint.h"
+#include "film/cast.h"
 #include "host/whole_file.h"
 #include "io/ffmpeg.h"
 #include "io/film_file.h"
@@ -58,7 +59,8 @@ fst_camera_options fst_default_camera_options(void)
 typedef struct camera {
     const fst_camera_options *options;
     fst_camera_paint paint;
-    fst_camera_motion motion;
+    fst_film_cast cast;
+    fst_camera_motion *motions; /* of each bead */
     fst_process process;
     char folder[4096]; /* the folder of images; "": the frames go to ffmpeg */
     unsigned char *pixels;
@@ -114,30 +116,44 @@ static fst_status check(const fst_camera_options *o, fst_error *error)
 
 /* ------------------------------------------------------------------ the motion and the view */
 
-static fst_status begin_motion(camera *c, const fst_table *table, fst_error *error)
+static fst_camera_motion motion_of(const fst_film_motion *m)
+{
+    const fst_table *table = m->table;
+    const double *heights = fst_collected(table, "z"), *climbs = fst_collected(table, "vz");
+    return (fst_camera_motion){.t = m->t + m->first,
+                               .x = m->x + m->first,
+                               .y = m->y + m->first,
+                               .z = heights && climbs ? heights + m->first : NULL,
+                               .vx = fst_collected(table, "vx") + m->first,
+                               .vy = fst_collected(table, "vy") + m->first,
+                               .vz = heights && climbs ? climbs + m->first : NULL,
+                               .rows = m->last - m->first + 1,
+                               .bead = 1e3 * table->params.bead_radius,
+                               .second = 1.0 / table->params.friction_gamma,
+                               .millimetre = m->millimetres};
+}
+
+/* The beads of a trajectory of one or, where `list` is given, of a list. */
+static fst_status begin_motions(camera *c, const fst_table *table, const fst_beads_table *list,
+                                fst_error *error)
 {
     const fst_camera_options *o = c->options;
-    const double *turns = fst_collected(table, "drive_turns");
-    const double slack = 1e-9; /* samples lie on their turn except for rounding */
-    size_t first = 0, end = table->rows;
-    while (first < end && !isnan(o->from) && turns[first] < o->from - slack)
-        ++first;
-    while (end > first && !isnan(o->to) && turns[end - 1] > o->to + slack)
-        --end;
-    if (end < first + 2)
-        return fst_fail(error, FST_BAD_INPUT, "fst_camera_options.from",
-                        "the trajectory has no samples there: it covers the drive periods %.6g to %.6g",
-                        table->rows ? turns[0] : 0.0, table->rows ? turns[table->rows - 1] : 0.0);
-    c->motion = (fst_camera_motion){.t = fst_collected(table, "t") + first,
-                                    .x = fst_collected(table, "x") + first,
-                                    .y = fst_collected(table, "y") + first,
-                                    .vx = fst_collected(table, "vx") + first,
-                                    .vy = fst_collected(table, "vy") + first,
-                                    .rows = end - first,
-                                    .second = 1.0 / table->params.friction_gamma,
-                                    .millimetre = 1e3 * table->params.magnet_half_length};
-    c->begin = c->motion.t[0] * c->motion.second;
-    const double seconds = c->motion.t[c->motion.rows - 1] * c->motion.second - c->begin;
+    if (list && list->scene.plate_shape != FST_PLATE_FLAT)
+        return fst_fail(error, FST_BAD_INPUT, "plate.shape",
+                        "a camera looks down on a flat plate, and plate.shape is %s: film it without --camera",
+                        list->scene.plate_shape == FST_PLATE_NONE ? "none" : "bowl");
+    fst_status status = list ? fst_film_cast_tables(&c->cast, list, o->from, o->to, error)
+                             : fst_film_cast_table(&c->cast, table, o->from, o->to, error);
+    if (status != FST_OK)
+        return status;
+    c->motions = calloc((size_t)c->cast.count, sizeof *c->motions);
+    if (!c->motions)
+        return fst_fail(error, FST_NO_MEMORY, "film", "no memory for the beads of a film");
+    for (int i = 0; i < c->cast.count; ++i)
+        c->motions[i] = motion_of(&c->cast.motions[i]);
+    const fst_camera_motion *m = &c->motions[0];
+    c->begin = m->t[0] * m->second;
+    const double seconds = m->t[m->rows - 1] * m->second - c->begin;
     const double count = 1.0 + floor((seconds - o->exposure - o->readout) * o->fps + 1e-9);
     if (!(count >= 1.0 && count <= MOST_FRAMES))
         return fst_fail(error, FST_BAD_INPUT, "fst_camera_options.from",
@@ -148,13 +164,25 @@ static fst_status begin_motion(camera *c, const fst_table *table, fst_error *err
     return FST_OK;
 }
 
-static fst_status begin_view(camera *c, const fst_table *table, fst_error *error)
+/* How far from the axis the camera must see, and the radius of the greatest bead. */
+static void find_reach(const camera *c, double *reach, double *radius)
+{
+    *radius = 0.0;
+    for (int i = 0; i < c->cast.count; ++i)
+        *radius = fmax(*radius, c->motions[i].bead);
+    *reach = 4.0 * *radius;
+    for (int i = 0; i < c->cast.count; ++i) {
+        const fst_camera_motion *m = &c->motions[i];
+        for (size_t row = 0; row < m->rows; ++row)
+            *reach = fmax(*reach, m->millimetre * hypot(m->x[row], m->y[row]));
+    }
+}
+
+static fst_status begin_view(camera *c, fst_error *error)
 {
     const fst_camera_options *o = c->options;
-    const double radius = 1e3 * table->params.bead_radius;
-    double reach = 4.0 * radius;
-    for (size_t row = 0; row < c->motion.rows; ++row)
-        reach = fmax(reach, c->motion.millimetre * hypot(c->motion.x[row], c->motion.y[row]));
+    double reach, radius;
+    find_reach(c, &reach, &radius);
     const double plate = isnan(o->plate) ? fmax(USUAL_PLATE, 10.0 * ceil(0.32 * reach)) : 1e3 * o->plate;
     const double distance = isnan(o->distance) ? 1.5 * plate : 1e3 * o->distance;
     if (!(plate >= 2.0 * (reach + radius) && plate <= 1e5))
@@ -172,7 +200,6 @@ static fst_status begin_view(camera *c, const fst_table *table, fst_error *error
                            .width = o->width,
                            .height = o->height,
                            .plate = 0.5 * plate,
-                           .bead = radius,
                            .marks = 0.5 * floor(0.6 * plate),
                            .exposure = o->exposure,
                            .readout = o->readout,
@@ -223,14 +250,33 @@ static fst_status give_frame(camera *c, int index, fst_error *error)
     return fst_whole_file_commit(&file, error);
 }
 
+/* The names of the columns, with the number of the bead behind those of several. */
+static void write_names(camera *c)
+{
+    static const char *const units[4][2] = {{"x", "mm"}, {"y", "mm"}, {"u", "px"}, {"v", "px"}};
+    (void)fprintf(c->truth.stream, "frame,t [s]");
+    for (int i = 0; i < c->cast.count; ++i)
+        for (int k = 0; k < 4; ++k) {
+            char number[16] = "";
+            if (c->cast.count > 1)
+                (void)snprintf(number, sizeof number, "_%d", i);
+            (void)fprintf(c->truth.stream, ",%s%s [%s]", units[k][0], number, units[k][1]);
+        }
+    (void)fputc('\n', c->truth.stream);
+}
+
 static void write_truth(camera *c, int index, double seconds)
 {
     if (!c->truth.stream)
         return;
-    double place[2], seen[2];
-    fst_camera_paint_truth(&c->paint, &c->motion, seconds, place, seen);
-    (void)fprintf(c->truth.stream, "%d,%.9f,%.6f,%.6f,%.4f,%.4f\n", index, seconds - c->begin, place[0],
-                  place[1], seen[0], c->paint.height - 1 - seen[1]);
+    (void)fprintf(c->truth.stream, "%d,%.9f", index, seconds - c->begin);
+    for (int i = 0; i < c->cast.count; ++i) {
+        double place[3], seen[2];
+        fst_camera_paint_truth(&c->paint, &c->motions[i], seconds, place, seen);
+        (void)fprintf(c->truth.stream, ",%.6f,%.6f,%.4f,%.4f", place[0], place[1], seen[0],
+                      c->paint.height - 1 - seen[1]);
+    }
+    (void)fputc('\n', c->truth.stream);
 }
 
 static fst_status take_frames(camera *c, fst_error *error)
@@ -241,7 +287,7 @@ static fst_status take_frames(camera *c, fst_error *error)
         const double seconds = c->begin + k / o->fps;
         if (o->drop && (k + 1) % o->drop == 0)
             continue;
-        fst_camera_paint_frame(&c->paint, &c->motion, seconds, (uint64_t)k, c->pixels);
+        fst_camera_paint_frame(&c->paint, c->motions, c->cast.count, seconds, (uint64_t)k, c->pixels);
         write_truth(c, index, seconds);
         fst_status status = give_frame(c, index++, error);
         if (status == FST_OK)
@@ -328,7 +374,7 @@ static fst_status film_with_truth(camera *c, const char *out, const char *truth,
     if (status != FST_OK)
         return status;
     if (truth)
-        (void)fprintf(c->truth.stream, "frame,t [s],x [mm],y [mm],u [px],v [px]\n");
+        write_names(c);
     const char *format = format_of(out);
     status = format ? film_into_file(c, out, format, error) : film_into_folder(c, out, error);
     if (truth && status == FST_OK)
@@ -338,8 +384,8 @@ static fst_status film_with_truth(camera *c, const char *out, const char *truth,
     return status;
 }
 
-fst_status fst_camera_film(const fst_table *table, const char *out, const char *truth,
-                           const fst_camera_options *options, fst_camera_facts *facts, fst_error *error)
+static fst_status take(const fst_table *table, const fst_beads_table *list, const char *out, const char *truth,
+                       const fst_camera_options *options, fst_camera_facts *facts, fst_error *error)
 {
     const fst_camera_options defaults = fst_default_camera_options();
     camera c = {.options = options ? options : &defaults};
@@ -350,11 +396,10 @@ fst_status fst_camera_film(const fst_table *table, const char *out, const char *
                         "the name of a camera's film ends in .mp4, .mov or .gif; a name without an ending is a "
                         "folder of images");
     if (status == FST_OK)
-        status = begin_motion(&c, table, error);
-    if (status != FST_OK)
-        return status;
+        status = begin_motions(&c, table, list, error);
     const fst_c_locale locale = fst_c_locale_enter();
-    status = begin_view(&c, table, error);
+    if (status == FST_OK)
+        status = begin_view(&c, error);
     if (status == FST_OK) {
         c.pixels = malloc((size_t)c.paint.width * (size_t)c.paint.height);
         status = c.pixels ? film_with_truth(&c, out, truth, error)
@@ -364,6 +409,20 @@ fst_status fst_camera_film(const fst_table *table, const char *out, const char *
         tell_facts(&c, facts);
     fst_camera_paint_end(&c.paint);
     free(c.pixels);
+    free(c.motions);
+    fst_film_cast_free(&c.cast);
     fst_c_locale_leave(locale);
     return status;
+}
+
+fst_status fst_camera_film(const fst_table *table, const char *out, const char *truth,
+                           const fst_camera_options *options, fst_camera_facts *facts, fst_error *error)
+{
+    return take(table, NULL, out, truth, options, facts, error);
+}
+
+fst_status fst_camera_film_beads(const fst_beads_table *table, const char *out, const char *truth,
+                                 const fst_camera_options *options, fst_camera_facts *facts, fst_error *error)
+{
+    return take(NULL, table, out, truth, options, facts, error);
 }

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/constants.h"
 #include "base/chance.h"
@@ -22,8 +23,10 @@ enum { MOST_MOMENTS = 64, SUBPIXELS = 3 };
 
 /* ------------------------------------------------------------------ the motion */
 
-void fst_camera_motion_at(fst_camera_motion *motion, double seconds, double place[2])
+void fst_camera_motion_at(fst_camera_motion *motion, double seconds, double place[3])
 {
+    const double *const places[3] = {motion->x, motion->y, motion->z};
+    const double *const rates[3] = {motion->vx, motion->vy, motion->vz};
     const double t = seconds / motion->second;
     size_t row = motion->row;
     while (row > 0 && motion->t[row] > t)
@@ -36,10 +39,11 @@ void fst_camera_motion_at(fst_camera_motion *motion, double seconds, double plac
     const double s = fmax(0.0, fmin(1.0, (t - motion->t[row]) / step)), q = 1.0 - s;
     const double from = q * q * (1.0 + 2.0 * s), to = s * s * (3.0 - 2.0 * s);
     const double leave = q * q * s * step, arrive = -s * s * q * step;
-    place[0] = motion->millimetre * (from * motion->x[row] + to * motion->x[row + 1] + leave * motion->vx[row] +
-                                     arrive * motion->vx[row + 1]);
-    place[1] = motion->millimetre * (from * motion->y[row] + to * motion->y[row + 1] + leave * motion->vy[row] +
-                                     arrive * motion->vy[row + 1]);
+    for (int i = 0; i < 3; ++i)
+        place[i] = places[i] ? motion->millimetre * (from * places[i][row] + to * places[i][row + 1] +
+                                                     leave * rates[i][row] + arrive * rates[i][row + 1])
+                             : 0.0;
+    place[2] += motion->bead;
 }
 
 /* ------------------------------------------------------------------ chance */
@@ -129,11 +133,10 @@ static double begin_of_row(const fst_camera_paint *paint, double seconds, double
 
 /* How much of what a pixel sees along `ray` is bead, and how much light the bead sends back there: a dark ball
  * of steel, lit from the left above, with a highlight almost as bright as the plate. */
-static double bead_along(const fst_camera_paint *paint, const double place[2], const double ray[3],
-                         double *shade)
+static double bead_along(const fst_camera_paint *paint, double radius, const double centre[3],
+                         const double ray[3], double *shade)
 {
     static const double lamp[3] = {-0.4, 0.5, 0.768};
-    const double centre[3] = {place[0], place[1], paint->bead};
     double way = 0.0, off[3], squared = 0.0, towards = 0.0, mirror = 0.0, between = 0.0;
     for (int i = 0; i < 3; ++i)
         way += (centre[i] - paint->view.place[i]) * ray[i];
@@ -141,11 +144,11 @@ static double bead_along(const fst_camera_paint *paint, const double place[2], c
         off[i] = paint->view.place[i] + way * ray[i] - centre[i];
         squared += off[i] * off[i];
     }
-    const double inside = (paint->bead - sqrt(squared)) * paint->view.focal / way; /* pixels from the outline */
+    const double inside = (radius - sqrt(squared)) * paint->view.focal / way; /* pixels from the outline */
     const double part = fmax(0.0, fmin(1.0, inside + 0.5));
-    const double front = sqrt(fmax(0.0, paint->bead * paint->bead - squared));
+    const double front = sqrt(fmax(0.0, radius * radius - squared));
     for (int i = 0; i < 3; ++i) {
-        const double normal = (off[i] - front * ray[i]) / paint->bead;
+        const double normal = (off[i] - front * ray[i]) / radius;
         towards += normal * lamp[i];
         mirror += normal * (lamp[i] - ray[i]);
         between += (lamp[i] - ray[i]) * (lamp[i] - ray[i]);
@@ -162,11 +165,11 @@ static void surround(const fst_camera_paint *paint, fst_camera_motion *motion, d
     const int size[2] = {paint->width, paint->height};
     double least[2] = {INFINITY, INFINITY}, most[2] = {-INFINITY, -INFINITY}, margin = 0.0;
     for (int k = 0; k <= LOOKS; ++k) {
-        double centre[3] = {0.0, 0.0, paint->bead}, seen[2], up[2];
+        double centre[3], seen[2], up[2];
         fst_camera_motion_at(motion, seconds + (paint->readout + paint->exposure) * k / LOOKS, centre);
         fst_camera_view_project(&paint->view, centre, seen);
         for (int i = 0; i < 3; ++i) /* half as much again as the radius covers what perspective adds to it */
-            centre[i] += 1.5 * paint->bead * paint->view.up[i];
+            centre[i] += 1.5 * motion->bead * paint->view.up[i];
         fst_camera_view_project(&paint->view, centre, up);
         margin = fmax(margin, hypot(up[0] - seen[0], up[1] - seen[1]) + 3.0);
         for (int i = 0; i < 2; ++i) {
@@ -183,7 +186,7 @@ static void surround(const fst_camera_paint *paint, fst_camera_motion *motion, d
 /* The moments at which the bead of a row is looked at: two for each pixel that it moves. */
 static int moments(const fst_camera_paint *paint, fst_camera_motion *motion, double seconds)
 {
-    double from[3] = {0.0, 0.0, paint->bead}, to[3] = {0.0, 0.0, paint->bead}, seen[2][2];
+    double from[3], to[3], seen[2][2];
     fst_camera_motion_at(motion, seconds, from);
     fst_camera_motion_at(motion, seconds + paint->exposure, to);
     fst_camera_view_project(&paint->view, from, seen[0]);
@@ -196,7 +199,7 @@ static int moments(const fst_camera_paint *paint, fst_camera_motion *motion, dou
 static void paint_bead_row(const fst_camera_paint *paint, fst_camera_motion *motion, double seconds, int row,
                            const int columns[2], int count)
 {
-    double places[MOST_MOMENTS][2];
+    double places[MOST_MOMENTS][3];
     const double begin = begin_of_row(paint, seconds, row);
     for (int k = 0; k < count; ++k)
         fst_camera_motion_at(motion, begin + paint->exposure * (k + 0.5) / count, places[k]);
@@ -205,7 +208,7 @@ static void paint_bead_row(const fst_camera_paint *paint, fst_camera_motion *mot
         fst_camera_view_ray(&paint->view, column, row, ray);
         for (int k = 0; k < count; ++k) {
             double shade;
-            const double part = bead_along(paint, places[k], ray, &shade);
+            const double part = bead_along(paint, motion->bead, places[k], ray, &shade);
             covered += part;
             sent += part * shade;
         }
@@ -222,21 +225,47 @@ static double lamps(const fst_camera_paint *paint, double begin)
     return 1.0 + paint->flicker * kept * sin(FST_TWO_PI * LAMPS * (begin + 0.5 * paint->exposure));
 }
 
-void fst_camera_paint_frame(const fst_camera_paint *paint, fst_camera_motion *motion, double seconds,
-                            uint64_t index, unsigned char *pixels)
+/* A bead of a frame: its motion, how many moments are looked at, and between which columns and rows it is seen. */
+typedef struct seen_bead {
+    fst_camera_motion *motion;
+    int moments, low[2], high[2];
+    double far; /* its distance from the camera */
+} seen_bead;
+
+/* Find the beads of a frame, the farthest first, which nearer ones cover. */
+static void find_beads(const fst_camera_paint *paint, fst_camera_motion *motions, int count, double seconds,
+                       seen_bead *beads)
+{
+    for (int i = 0; i < count; ++i) {
+        seen_bead bead = {.motion = &motions[i], .moments = moments(paint, &motions[i], seconds)};
+        double place[3];
+        fst_camera_motion_at(bead.motion, seconds, place);
+        for (int k = 0; k < 3; ++k)
+            bead.far += (place[k] - paint->view.place[k]) * (place[k] - paint->view.place[k]);
+        surround(paint, bead.motion, seconds, bead.low, bead.high);
+        int k = i;
+        for (; k > 0 && beads[k - 1].far < bead.far; --k)
+            beads[k] = beads[k - 1];
+        beads[k] = bead;
+    }
+}
+
+void fst_camera_paint_frame(const fst_camera_paint *paint, fst_camera_motion *motions, int count,
+                            double seconds, uint64_t index, unsigned char *pixels)
 {
     const size_t width = (size_t)paint->width;
-    const int count = moments(paint, motion, seconds);
-    int low[2], high[2];
+    seen_bead beads[FST_BEADS_MANY];
     uint64_t chance = paint->seed * 0xd1342543de82ef95ULL + index;
     chance = fst_draw(&chance);
-    surround(paint, motion, seconds, low, high);
+    find_beads(paint, motions, count, seconds, beads);
     for (int row = 0; row < paint->height; ++row) {
         const double bright = lamps(paint, begin_of_row(paint, seconds, row));
         for (size_t i = 0; i < width; ++i)
             paint->row[i] = paint->still[(size_t)row * width + i];
-        if (row >= low[1] && row < high[1])
-            paint_bead_row(paint, motion, seconds, row, (const int[2]){low[0], high[0]}, count);
+        for (const seen_bead *b = beads; b < beads + count; ++b)
+            if (row >= b->low[1] && row < b->high[1])
+                paint_bead_row(paint, b->motion, seconds, row, (const int[2]){b->low[0], b->high[0]},
+                               b->moments);
         for (size_t i = 0; i < width; ++i) {
             const double level =
                 bright * paint->row[i] + (paint->noise > 0.0 ? paint->noise * noise(&chance) : 0.0);
@@ -246,20 +275,19 @@ void fst_camera_paint_frame(const fst_camera_paint *paint, fst_camera_motion *mo
 }
 
 void fst_camera_paint_truth(const fst_camera_paint *paint, fst_camera_motion *motion, double seconds,
-                            double place[2], double seen[2])
+                            double place[3], double seen[2])
 {
     enum { REPEATS = 4 }; /* the row depends on the place, and the place on the time of the row */
     seen[1] = 0.5 * paint->height;
     for (int repeat = 0; repeat < REPEATS; ++repeat) {
         const double begin = begin_of_row(paint, seconds, seen[1]);
-        double mean[3] = {0.0, 0.0, paint->bead}, at[2];
+        double mean[3] = {0.0, 0.0, 0.0}, at[3];
         for (int k = 0; k < MOST_MOMENTS; ++k) {
             fst_camera_motion_at(motion, begin + paint->exposure * (k + 0.5) / MOST_MOMENTS, at);
-            mean[0] += at[0] / MOST_MOMENTS;
-            mean[1] += at[1] / MOST_MOMENTS;
+            for (int i = 0; i < 3; ++i)
+                mean[i] += at[i] / MOST_MOMENTS;
         }
         fst_camera_view_project(&paint->view, mean, seen);
-        place[0] = mean[0];
-        place[1] = mean[1];
+        memcpy(place, mean, sizeof mean);
     }
 }

@@ -14,19 +14,20 @@
 
 /* Where the bead is: columns of a trajectory, between whose rows cubic curves go. */
 typedef struct fst_camera_motion {
-    const double *t, *x, *y, *vx, *vy; /* scaled, as the trajectory has them */
+    const double *t, *x, *y, *z, *vx, *vy, *vz; /* scaled, as the trajectory has them; NULL: no heights */
     size_t rows;
+    double bead;               /* radius, mm */
     double second, millimetre; /* what the units of t and x are worth */
     size_t row;                /* where the last look was */
 } fst_camera_motion;
 
-/* The place at a moment, in mm. */
-void fst_camera_motion_at(fst_camera_motion *motion, double seconds, double place[2]);
+/* The place of the centre at a moment, in mm. */
+void fst_camera_motion_at(fst_camera_motion *motion, double seconds, double place[3]);
 
 typedef struct fst_camera_paint {
     fst_camera_view view;
     int width, height;
-    double plate, bead;       /* radii, mm */
+    double plate;             /* radius, mm */
     double marks;             /* half the side of the square at whose corners marks are printed, mm */
     double exposure, readout; /* s */
     double noise, flicker, uneven;
@@ -39,13 +40,13 @@ typedef struct fst_camera_paint {
 fst_status fst_camera_paint_begin(fst_camera_paint *paint, fst_error *error);
 void fst_camera_paint_end(fst_camera_paint *paint);
 
-/* Paint the frame number `index`, which begins at a moment of the motion. */
-void fst_camera_paint_frame(const fst_camera_paint *paint, fst_camera_motion *motion, double seconds,
-                            uint64_t index, unsigned char *pixels);
+/* Paint the frame number `index` of so many beads, which begins at a moment of their motions. */
+void fst_camera_paint_frame(const fst_camera_paint *paint, fst_camera_motion *motions, int count,
+                            double seconds, uint64_t index, unsigned char *pixels);
 
 /* Where the bead was on the mean over the exposure of the row on which it is seen: its place in mm, and column
  * and row. */
 void fst_camera_paint_truth(const fst_camera_paint *paint, fst_camera_motion *motion, double seconds,
-                            double place[2], double seen[2]);
+                            double place[3], double seen[2]);
 
 #endif

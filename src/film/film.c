@@ -1,8 +1,8 @@
 /* film.c - fst_film(): a trajectory as a film, frame by frame.
  *
- *  samples --> motion.c --> frame.h --> cairo_module.c --> ffmpeg --> film_file.c --> OUT.mp4, OUT.gif
- *  (a table)   where all    what is     pixels               |        is it      renamed into
- *              is at t      drawn                            |        whole?     its place
+ *  samples --> cast.c ----> frame.h --> cairo_module.c --> ffmpeg --> film_file.c --> OUT.mp4, OUT.gif
+ *  (a table    where all    what is     pixels               |        is it      renamed into
+ *   or list)   is at t      drawn                            |        whole?     its place
  *                                                            `--> or OUT/frame-00001.png, ...
  *
  * Frame i shows the moment i/(fps seconds_per_turn) turns of the drive after the first one.  Frames are painted
@@ -13,10 +13,9 @@
 #include "base/error.h"
 #include "base/number.h"
 #include "base/watch.h"
-#include "draw/bar.h"
 #include "io/ffmpeg.h"
 #include "io/film_file.h"
-#include "film/motion.h"
+#include "film/layout.h"
 #include "host/module.h"
 #include "host/whole_file.h"
 
@@ -53,14 +52,12 @@ typedef struct film {
     const fst_film_options *options;
     const fst_film_module_table *module;
     fst_film_canvas *canvas;
-    fst_film_layout layout;
-    fst_film_motion motion;
+    fst_film_look look;
+    fst_film_cast cast;
     fst_process process;
     char folder[4096]; /* the folder for the frames; "": they go to ffmpeg */
-    double *trail;     /* the x of all its points, then their y, then their shades */
-    size_t trail_room;
-    char title[192], label[128];
-    char slower[48]; /* "10.7 times slower" than the motion */
+    double *trail;     /* of each bead: the x of all its points, then their y or heights, then their shades */
+    size_t trail_room; /* points of a trail */
     int frames;
 } film;
 
@@ -101,86 +98,46 @@ static fst_status check(const fst_film_options *options, fst_error *error)
     return FST_OK;
 }
 
-/* ------------------------------------------------------------------ the layout */
-
-/* The magnet: what is shown of the plate holds all of it. */
-static void add_bodies(fst_film_layout *layout, const fst_params *p)
-{
-    layout->body_count = fst_magnet_bodies(p, 1e3, FST_BAR_OVER_LINES, layout->bodies);
-    layout->high = 0.5 * FST_BAR_THICKNESS;
-    layout->low = -layout->high;
-    for (int i = 0; i < layout->body_count; ++i) {
-        const fst_part_shape *seen = &layout->bodies[i].seen;
-        layout->high = i ? fmax(layout->high, seen->high) : seen->high;
-        layout->low = i ? fmin(layout->low, seen->low) : seen->low;
-        for (int k = 0; k < seen->count; ++k)
-            layout->reach = fmax(layout->reach, 1.05 * hypot(seen->corners[k][0], seen->corners[k][1]));
-    }
-}
-
-static void set_layout(film *f, const fst_table *table)
-{
-    fst_params settled = table->params;
-    (void)fst_params_settle(&settled, NULL); /* the caller may have changed them */
-    const fst_params *p = &settled;
-    const fst_film_motion *m = &f->motion;
-    double reach = 0.0, omega = fst_collected(table, "omega")[m->first];
-    for (size_t row = m->first; row <= m->last; ++row)
-        reach = fmax(reach, fmax(fabs(m->x[row]), fabs(m->y[row])));
-    double hertz = omega * p->friction_gamma / FST_TWO_PI;
-    (void)snprintf(f->title, sizeof f->title, "%.3g Hz (ω = %.4g), %s", hertz, omega,
-                   fst_dynamics_name((fst_dynamics)p->model_dynamics));
-    (void)snprintf(f->slower, sizeof f->slower, "%.3g times slower", hertz * f->options->seconds_per_turn);
-    fst_shown_units units = f->options->units;
-    if (units == FST_SHOWN_AS_GIVEN)
-        units = isfinite(p->drive_omega) ? FST_SHOWN_SCALED : FST_SHOWN_LAB;
-    const fst_quantity colour = fst_quantity_of_column(m->colour_info, units, p);
-    (void)snprintf(f->label, sizeof f->label, "%s", colour.label);
-    f->layout = (fst_film_layout){
-        .width = f->options->width,
-        .height = f->options->height,
-        .reach = fmax(1.25 * reach, 1.35) * m->millimetres,
-        .depth = 1e3 * p->magnet_depth,
-        .radius = 1e3 * p->bead_radius,
-        .title = f->title,
-        .slower = f->slower,
-        .colour_label = f->label,
-        .colour_low = colour.factor * m->low,
-        .colour_high = colour.factor * m->high,
-        .both_signs = m->both_signs,
-    };
-    add_bodies(&f->layout, p);
-}
-
 /* ------------------------------------------------------------------ frames */
 
-/* The trail: the samples up to now, at most as far back as two turns of the bead about the axis. */
-static void set_trail(film *f, fst_film_frame *frame)
+/* The trail of a bead: the samples up to now, at most as far back as two turns about the axis, which the beads of a list
+ * share out, so that the picture stays clear. */
+static void set_trail(const film *f, int bead)
 {
-    const fst_film_motion *m = &f->motion;
-    const double *alpha = fst_collected(m->table, "alpha");
+    const fst_film_motion *m = &f->cast.motions[bead];
+    fst_film_bead *at = &f->cast.beads[bead];
+    const int from_front = f->look.layout.view == FST_FILM_FRONT;
+    const double longest = fmax(12.57 / f->cast.count, 1.0);
     size_t from = m->row;
-    while (from > m->first && fabs(alpha[m->row] - alpha[from - 1]) < 12.57)
+    while (from > m->first && fabs(m->alpha[m->row] - m->alpha[from - 1]) < longest)
         --from;
     /* Skip samples closer than a pixel or so.  The skipped ones are the same in every frame, so the trail does
      * not flicker. */
-    double least = 1.5 * 2.0 * f->layout.reach / f->layout.height;
-    double *x = f->trail, *y = x + f->trail_room, *shade = y + f->trail_room;
+    double least = 1.5 * 2.0 * f->look.layout.reach / f->look.layout.height;
+    double *x = f->trail + 3 * f->trail_room * (size_t)bead, *y = x + f->trail_room, *shade = y + f->trail_room;
     int count = 0;
     for (size_t row = from; row <= m->row; ++row) {
         x[count] = m->millimetres * m->x[row];
-        y[count] = m->millimetres * m->y[row];
+        y[count] = from_front ? m->radius + m->millimetres * m->z[row] : m->millimetres * m->y[row];
         if (count > 0 && hypot(x[count] - x[count - 1], y[count] - y[count - 1]) < least)
             continue;
-        shade[count++] = (m->colour[row] - m->low) / (m->high - m->low);
+        shade[count++] = m->colour ? (m->colour[row] - m->low) / (m->high - m->low) : 0.0;
     }
-    x[count] = frame->x;
-    y[count] = frame->y;
+    x[count] = at->place[0];
+    y[count] = at->place[from_front ? 2 : 1];
     shade[count] = shade[count - 1]; /* the first row is never skipped */
-    frame->trail_x = x;
-    frame->trail_y = y;
-    frame->trail_shade = shade;
-    frame->trail = count + 1;
+    at->trail_x = x;
+    at->trail_y = y;
+    at->trail_shade = shade;
+    at->trail = count + 1;
+}
+
+/* The middle of the beads, if the picture follows them. */
+static void set_centre(const film *f, fst_film_frame *frame)
+{
+    for (int bead = 0; bead < frame->count && f->look.layout.follows; ++bead)
+        for (int k = 0; k < 2; ++k)
+            frame->centre[k] += frame->beads[bead].place[k] / frame->count;
 }
 
 static void name_frame(const film *f, int index, char path[FRAME_PATH])
@@ -206,20 +163,20 @@ static fst_status give_frame(film *f, int index, fst_error *error)
     int stride;
     const unsigned char *pixels = f->module->pixels(f->canvas, &stride);
     fst_status status = FST_OK;
-    size_t row = 4 * (size_t)f->layout.width;
+    size_t row = 4 * (size_t)f->look.layout.width;
     if ((size_t)stride == row)
-        return fst_process_write(&f->process, pixels, row * (size_t)f->layout.height, error);
-    for (int y = 0; y < f->layout.height && status == FST_OK; ++y)
+        return fst_process_write(&f->process, pixels, row * (size_t)f->look.layout.height, error);
+    for (int y = 0; y < f->look.layout.height && status == FST_OK; ++y)
         status = fst_process_write(&f->process, pixels + (size_t)y * (size_t)stride, row, error);
     return status;
 }
 
 static fst_status make_frames(film *f, fst_error *error)
 {
-    fst_film_motion *m = &f->motion;
+    const fst_film_motion *m = &f->cast.motions[0];
     const fst_film_options *o = f->options;
-    double begin = m->drive_turns[m->first], turns = m->drive_turns[m->last] - begin;
-    const double count = 1.0 + floor(turns * o->seconds_per_turn * o->fps + 1e-9);
+    double begin = m->clock[m->first], periods = m->clock[m->last] - begin;
+    const double count = 1.0 + floor(periods * o->seconds_per_turn * o->fps + 1e-9);
     if (!(count <= MOST_FRAMES))
         return fst_fail(error, FST_BAD_INPUT, "film",
                         "%.6g frames are too many: at most %d; take a shorter part", count, MOST_FRAMES);
@@ -228,13 +185,14 @@ static fst_status make_frames(film *f, fst_error *error)
         fst_film_frame frame = {.clock = NULL};
         char clock[64];
         double now = begin + i / (o->fps * o->seconds_per_turn);
-        fst_film_motion_to(m, now);
-        fst_film_motion_frame(m, &frame);
-        set_trail(f, &frame);
-        double t = m->t[m->row] + m->part * (m->t[m->row + 1] - m->t[m->row]);
-        (void)snprintf(clock, sizeof clock, "t = %.4f s, turn %.2f", t / m->table->params.friction_gamma, now);
+        fst_film_cast_to(&f->cast, now, &frame);
+        for (int bead = 0; bead < f->cast.count; ++bead)
+            set_trail(f, bead);
+        set_centre(f, &frame);
+        double t = fst_film_motion_at(m, m->t);
+        (void)snprintf(clock, sizeof clock, "t = %.4f s, turn %.2f", t / f->cast.params.friction_gamma, now);
         frame.clock = clock;
-        f->module->paint(f->canvas, &f->layout, &frame);
+        f->module->paint(f->canvas, &f->look.layout, &frame);
         fst_status status = give_frame(f, i, error);
         if (status == FST_OK)
             status = fst_tell(o->progress, (i + 1.0) / f->frames, "frames", error);
@@ -279,8 +237,8 @@ static fst_status frames_into_process(film *f, const char *out, const char *form
     fst_status status = fst_whole_file_open(&file, out, error);
     if (status != FST_OK)
         return status;
-    const fst_ffmpeg_kind kind = {.width = f->layout.width,
-                                  .height = f->layout.height,
+    const fst_ffmpeg_kind kind = {.width = f->look.layout.width,
+                                  .height = f->look.layout.height,
                                   .fps = f->options->fps,
                                   .format = format,
                                   .pixels = "bgr0",
@@ -322,7 +280,9 @@ static fst_status produce(film *f, const char *out, fst_error *error)
                : status;
 }
 
-fst_status fst_film(const fst_table *table, const char *out, const fst_film_options *options, fst_error *error)
+/* Make the film of a trajectory of one bead or, where `list` is given, of a list. */
+static fst_status make(const fst_table *table, const fst_beads_table *list, const char *out,
+                       const fst_film_options *options, fst_error *error)
 {
     fst_film_options defaults = fst_default_film_options();
     film f = {.options = options ? options : &defaults};
@@ -336,13 +296,13 @@ fst_status fst_film(const fst_table *table, const char *out, const fst_film_opti
     if (status == FST_OK)
         status = load_module(&f.module, error);
     if (status == FST_OK)
-        status =
-            fst_film_motion_begin(&f.motion, table, f.options->from, f.options->to, f.options->colour, error);
+        status = list ? fst_film_cast_list(&f.cast, list, f.options, error)
+                      : fst_film_cast_one(&f.cast, table, f.options, error);
     if (status == FST_OK) {
-        set_layout(&f, table);
-        f.trail_room = f.motion.last - f.motion.first + 3;
-        f.trail = malloc(3 * f.trail_room * sizeof *f.trail);
-        status = f.trail ? f.module->open(&f.layout, &f.canvas, error)
+        fst_film_look_at(&f.look, &f.cast, f.options);
+        f.trail_room = f.cast.motions[0].last - f.cast.motions[0].first + 3;
+        f.trail = malloc((size_t)f.cast.count * 3 * f.trail_room * sizeof *f.trail);
+        status = f.trail ? f.module->open(&f.look.layout, &f.canvas, error)
                          : fst_fail(error, FST_NO_MEMORY, "film", "no memory for the trail");
     }
     if (status == FST_OK)
@@ -350,6 +310,18 @@ fst_status fst_film(const fst_table *table, const char *out, const fst_film_opti
     if (f.canvas)
         f.module->close(f.canvas);
     free(f.trail);
+    fst_film_cast_free(&f.cast);
     fst_c_locale_leave(locale);
     return status;
+}
+
+fst_status fst_film(const fst_table *table, const char *out, const fst_film_options *options, fst_error *error)
+{
+    return make(table, NULL, out, options, error);
+}
+
+fst_status fst_film_beads(const fst_beads_table *table, const char *out, const fst_film_options *options,
+                          fst_error *error)
+{
+    return make(NULL, table, out, options, error);
 }

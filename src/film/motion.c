@@ -19,6 +19,12 @@ static fst_status find_colour(fst_film_motion *motion, const char *colour, fst_e
     for (int i = 0; i < fst_column_count(); ++i) {
         const char *name = fst_column_at(i)->name;
         if (!strcmp(name, colour)) {
+            if (!motion->table->columns[i])
+                return fst_fail(
+                    error, FST_BAD_INPUT, "fst_film_options.colour",
+                    "the column \"%s\" is not known of this trajectory: it needs the field, or a flat "
+                    "plate",
+                    name);
             motion->colour = motion->table->columns[i];
             motion->colour_info = fst_column_at(i);
             return FST_OK;
@@ -107,15 +113,38 @@ static void roll(const fst_film_motion *motion, size_t row, double part, double 
     straighten(turn, n);
 }
 
-fst_status fst_film_motion_begin(fst_film_motion *motion, const fst_table *table, double from, double to,
-                                 const char *colour, fst_error *error)
+fst_status fst_film_rows(const double *clock, size_t rows, double from, double to, size_t *first, size_t *end,
+                         fst_error *error)
 {
-    *motion = (fst_film_motion){.table = table, .millimetres = 1e3 * table->params.magnet_half_length};
+    const double slack = 1e-9; /* samples lie on their turn except for rounding */
+    *first = 0;
+    *end = rows;
+    while (*first < *end && !isnan(from) && clock[*first] < from - slack)
+        ++*first;
+    while (*end > *first && !isnan(to) && clock[*end - 1] > to + slack)
+        --*end;
+    if (*end < *first + 2)
+        return fst_fail(error, FST_BAD_INPUT, "fst_film_options.from",
+                        "the trajectory has no samples there: it covers the drive periods %.6g to %.6g",
+                        rows ? clock[0] : 0.0, rows ? clock[rows - 1] : 0.0);
+    return FST_OK;
+}
+
+fst_status fst_film_motion_begin(fst_film_motion *motion, const fst_table *table, const double *clock,
+                                 double from, double to, const char *colour, fst_error *error)
+{
+    fst_params settled = table->params;
+    (void)fst_params_settle(&settled, NULL); /* the caller may have changed them */
+    *motion = (fst_film_motion){.table = table,
+                                .millimetres = 1e3 * table->params.magnet_half_length,
+                                .radius = 1e3 * settled.bead_radius};
     motion->t = fst_collected(table, "t");
     motion->drive_turns = fst_collected(table, "drive_turns");
+    motion->clock = clock ? clock : motion->drive_turns;
     motion->x = fst_collected(table, "x");
     motion->y = fst_collected(table, "y");
     motion->z = fst_collected(table, "z");
+    motion->alpha = fst_collected(table, "alpha");
     motion->flying = fst_collected(table, "flying");
     static const char *const names[6] = {"n_x", "n_y", "n_z", "w_x", "w_y", "w_z"};
     for (int i = 0; i < 6; ++i)
@@ -123,55 +152,54 @@ fst_status fst_film_motion_begin(fst_film_motion *motion, const fst_table *table
     const int law = table->params.friction_law;
     motion->sticking =
         law == FST_FRICTION_COULOMB || law == FST_FRICTION_ROLLING ? fst_collected(table, "sticking") : NULL;
-    fst_status status = find_colour(motion, colour ? colour : "slip", error);
+    size_t first = 0, end = 0;
+    fst_status status = colour ? find_colour(motion, colour, error) : FST_OK;
+    if (status == FST_OK)
+        status = fst_film_rows(motion->clock, table->rows, from, to, &first, &end, error);
     if (status != FST_OK)
         return status;
-    size_t first = 0, end = table->rows;
-    const double slack = 1e-9; /* samples lie on their turn except for rounding */
-    while (first < end && !isnan(from) && motion->drive_turns[first] < from - slack)
-        ++first;
-    while (end > first && !isnan(to) && motion->drive_turns[end - 1] > to + slack)
-        --end;
-    if (end < first + 2)
-        return fst_fail(error, FST_BAD_INPUT, "fst_film_options.from",
-                        "the trajectory has no samples there: it covers the drive periods %.6g to %.6g",
-                        table->rows ? motion->drive_turns[0] : 0.0,
-                        table->rows ? motion->drive_turns[table->rows - 1] : 0.0);
     motion->first = first;
     motion->last = end - 1;
     motion->row = first;
-    find_range(motion);
+    if (colour)
+        find_range(motion);
     double n[3] = {motion->n[0][first], motion->n[1][first], motion->n[2][first]};
     motion->turn[fabs(n[0]) < 0.7 ? 0 : 1][0] = 1.0;
     straighten(motion->turn, n);
     return FST_OK;
 }
 
-void fst_film_motion_to(fst_film_motion *motion, double turns)
+void fst_film_motion_to(fst_film_motion *motion, double periods)
 {
-    while (motion->row + 1 < motion->last && motion->drive_turns[motion->row + 1] <= turns) {
+    while (motion->row + 1 < motion->last && motion->clock[motion->row + 1] <= periods) {
         roll(motion, motion->row, 1.0, motion->turn);
         ++motion->row;
     }
-    double low = motion->drive_turns[motion->row], high = motion->drive_turns[motion->row + 1];
-    motion->part = fmax(0.0, fmin(1.0, (turns - low) / (high - low)));
+    double low = motion->clock[motion->row], high = motion->clock[motion->row + 1];
+    motion->part = fmax(0.0, fmin(1.0, (periods - low) / (high - low)));
 }
 
-void fst_film_motion_frame(const fst_film_motion *motion, fst_film_frame *frame)
+double fst_film_motion_at(const fst_film_motion *motion, const double *column)
 {
-    size_t row = motion->row;
-    double part = motion->part;
-    frame->x = motion->millimetres * (motion->x[row] + part * (motion->x[row + 1] - motion->x[row]));
-    frame->y = motion->millimetres * (motion->y[row] + part * (motion->y[row + 1] - motion->y[row]));
-    double turns = motion->drive_turns[row] + part * (motion->drive_turns[row + 1] - motion->drive_turns[row]);
-    frame->magnet_angle = 2.0 * FST_PI * fmod(turns, 1.0);
-    const size_t nearest = part < 0.5 ? row : row + 1;
-    frame->z = motion->z ? motion->millimetres * (motion->z[row] + part * (motion->z[row + 1] - motion->z[row]))
-                         : 0.0; /* files of before have no heights */
-    frame->contact = !motion->sticking                                 ? FST_CONTACT_UNTOLD
-                     : motion->flying && motion->flying[nearest] > 0.5 ? FST_CONTACT_FLIES
-                     : motion->sticking[nearest] > 0.5                 ? FST_CONTACT_STICKS
-                                                                       : FST_CONTACT_SLIPS;
-    memcpy(frame->turn, motion->turn, sizeof frame->turn);
-    roll(motion, row, part, frame->turn);
+    const double before = column[motion->row];
+    return before + motion->part * (column[motion->row + 1] - before);
+}
+
+void fst_film_motion_bead(const fst_film_motion *motion, fst_film_bead *bead)
+{
+    const double mm = motion->millimetres;
+    const size_t nearest = motion->part < 0.5 ? motion->row : motion->row + 1;
+    const int flies = motion->flying && motion->flying[nearest] > 0.5;
+    bead->place[0] = mm * fst_film_motion_at(motion, motion->x);
+    bead->place[1] = mm * fst_film_motion_at(motion, motion->y);
+    /* files of before have no heights */
+    bead->place[2] = motion->radius + (motion->z ? mm * fst_film_motion_at(motion, motion->z) : 0.0);
+    bead->radius = motion->radius;
+    bead->flies = flies;
+    bead->contact = !motion->sticking                 ? FST_CONTACT_UNTOLD
+                    : flies                           ? FST_CONTACT_FLIES
+                    : motion->sticking[nearest] > 0.5 ? FST_CONTACT_STICKS
+                                                      : FST_CONTACT_SLIPS;
+    memcpy(bead->turn, motion->turn, sizeof bead->turn);
+    roll(motion, motion->row, motion->part, bead->turn);
 }

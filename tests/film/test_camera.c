@@ -30,6 +30,7 @@ static fst_camera_motion circle(double turns)
                                .vx = column_vx,
                                .vy = column_vy,
                                .rows = ROWS,
+                               .bead = 2.5,
                                .second = 1.0,
                                .millimetre = 10.0};
 }
@@ -40,7 +41,6 @@ static fst_camera_paint camera(double tilt, double exposure, double readout)
                               .width = WIDTH,
                               .height = HEIGHT,
                               .plate = 35.0,
-                              .bead = 2.5,
                               .marks = 21.0,
                               .exposure = exposure,
                               .readout = readout,
@@ -91,7 +91,7 @@ static void motion_between_samples(void **state)
     fst_camera_motion motion = circle(4.0);
     const double w = 8.0 * FST_PI, h = 1.0 / (ROWS - 1);
     for (int i = 0; i < 500; ++i) {
-        double place[2];
+        double place[3];
         const double t = fmod(0.7548776662466927 * i, 1.0);
         fst_camera_motion_at(&motion, t, place);
         CHECK_CLOSE(place[0], 20.0 * cos(w * t), 20.0 * pow(w * h, 4.0) / 384.0 + 1e-12);
@@ -126,8 +126,8 @@ static void truth_is_in_the_picture(void **state)
         fst_camera_motion motion = circle(4.0);
         fst_camera_paint paint = camera(kind ? 0.4 : 0.0, kind > 1 ? 0.004 : 0.0, kind > 1 ? 0.03 : 0.0);
         for (int k = 0; k < 20; ++k) {
-            double place[2], told[2], shown[2];
-            fst_camera_paint_frame(&paint, &motion, 0.04 * k, (uint64_t)k, pixels);
+            double place[3], told[2], shown[2];
+            fst_camera_paint_frame(&paint, &motion, 1, 0.04 * k, (uint64_t)k, pixels);
             fst_camera_paint_truth(&paint, &motion, 0.04 * k, place, told);
             centroid(&paint, pixels, shown);
             CHECK_CLOSE(shown[0], told[0], 0.5);
@@ -146,7 +146,7 @@ static void exposure_and_readout(void **state)
     fst_camera_motion motion = circle(turns);
     fst_camera_paint paint = camera(0.0, exposure, readout);
     for (int k = 0; k < 10; ++k) {
-        double place[2], seen[2];
+        double place[3], seen[2];
         fst_camera_paint_truth(&paint, &motion, 0.05 * k, place, seen);
         CHECK_CLOSE(hypot(place[0], place[1]), 20.0 * sin(half) / half, 0.002);
         const double delay = 0.5 * exposure + readout * seen[1] / HEIGHT;
@@ -165,9 +165,9 @@ static void noise_is_as_asked(void **state)
     fst_camera_motion motion = circle(4.0);
     fst_camera_paint paint = camera(0.0, 0.001, 0.0);
     paint.noise = 5.0;
-    fst_camera_paint_frame(&paint, &motion, 0.1, 1, one);
-    fst_camera_paint_frame(&paint, &motion, 0.1, 2, other);
-    fst_camera_paint_frame(&paint, &motion, 0.1, 1, again);
+    fst_camera_paint_frame(&paint, &motion, 1, 0.1, 1, one);
+    fst_camera_paint_frame(&paint, &motion, 1, 0.1, 2, other);
+    fst_camera_paint_frame(&paint, &motion, 1, 0.1, 1, again);
     assert_memory_equal(one, again, sizeof one);
     double squares = 0.0, product = 0.0;
     int count = 0;
@@ -192,7 +192,7 @@ static void lamps_flicker_by_rows(void **state)
     for (int kind = 0; kind < 2; ++kind) {
         fst_camera_paint paint = camera(0.0, kind ? 0.01 : 0.0, 0.01);
         paint.flicker = 0.2;
-        fst_camera_paint_frame(&paint, &motion, 0.1, 0, pixels);
+        fst_camera_paint_frame(&paint, &motion, 1, 0.1, 0, pixels);
         for (int row = 0; row < HEIGHT; ++row) {
             const double still = paint.still[row * WIDTH];
             const double bright = kind ? 1.0 : 1.0 + 0.2 * sin(2.0 * FST_PI * row / HEIGHT);

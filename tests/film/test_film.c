@@ -1,13 +1,13 @@
 /* The motion that a film shows, from samples of motions that are known exactly: a body that turns evenly about
  * a fixed axis, and a bead that goes straight on. And how a whole film is told from one that was cut short.
- * tests: film/film.c film/motion.c io/film_file.c io/collect.c */
+ * tests: film/film.c film/cast.c film/motion.c io/film_file.c io/collect.c */
 #include "numeric.h"
 
 #include <stdlib.h>
 #include <unistd.h>
 
 #include "io/film_file.h"
-#include "film/motion.h"
+#include "film/cast.h"
 
 #include <festoon/festoon_tools.h>
 
@@ -64,7 +64,7 @@ static fst_table table_of_turning(double colour_from, double colour_to)
 static void begin(fst_film_motion *motion, const fst_table *table, const char *colour)
 {
     fst_error error = {FST_OK, "", ""};
-    if (fst_film_motion_begin(motion, table, NAN, NAN, colour, &error) != FST_OK)
+    if (fst_film_motion_begin(motion, table, NULL, NAN, NAN, colour, &error) != FST_OK)
         fail_msg("%s", error.sentence);
 }
 
@@ -75,20 +75,20 @@ static void test_the_body_turns_with_the_bead(void **state)
     (void)state;
     fst_table table = table_of_turning(0.0, 1.0);
     fst_film_motion motion;
-    fst_film_frame frame = {.clock = NULL};
+    fst_film_bead bead = {.trail = 0};
     begin(&motion, &table, NULL);
     double start[3][3];
     fst_film_motion_to(&motion, 0.0);
-    fst_film_motion_frame(&motion, &frame);
-    memcpy(start, frame.turn, sizeof start);
+    fst_film_motion_bead(&motion, &bead);
+    memcpy(start, bead.turn, sizeof start);
     for (int i = 0; i < 3; ++i)
         CHECK_CLOSE(start[i][2], N0[i], 1e-14);
     for (int step = 0; step <= 160; ++step) {
         const double part = step / 160.0;
         const int between = step % 2;
         fst_film_motion_to(&motion, TURNS * part);
-        fst_film_motion_frame(&motion, &frame);
-        double(*turn)[3] = frame.turn;
+        fst_film_motion_bead(&motion, &bead);
+        double(*turn)[3] = bead.turn;
         for (int k = 0; k < 3; ++k) {
             const double before[3] = {start[0][k], start[1][k], start[2][k]};
             double now[3];
@@ -109,20 +109,24 @@ static void test_places_between_samples(void **state)
 {
     (void)state;
     fst_table table = table_of_turning(0.0, 1.0);
-    fst_film_motion motion;
-    fst_film_frame frame = {.clock = NULL};
+    fst_film_cast cast;
+    fst_error error = {FST_OK, "", ""};
+    const fst_film_options options = fst_default_film_options();
     const double mm = 1e3 * table.params.magnet_half_length;
-    begin(&motion, &table, NULL);
+    assert_int_equal(fst_film_cast_one(&cast, &table, &options, &error), FST_OK);
     for (int step = 0; step <= 333; ++step) {
+        fst_film_frame frame = {.clock = NULL};
         const double part = step / 333.0;
-        fst_film_motion_to(&motion, TURNS * part);
-        fst_film_motion_frame(&motion, &frame);
-        CHECK_CLOSE(frame.x, mm * (0.5 + 0.25 * part), 1e-9);
-        CHECK_CLOSE(frame.y, mm * (-1.0 + 2.0 * part), 1e-9);
+        fst_film_cast_to(&cast, TURNS * part, &frame);
+        assert_int_equal(frame.count, 1);
+        CHECK_CLOSE(frame.beads[0].place[0], mm * (0.5 + 0.25 * part), 1e-9);
+        CHECK_CLOSE(frame.beads[0].place[1], mm * (-1.0 + 2.0 * part), 1e-9);
+        CHECK_CLOSE(frame.beads[0].place[2], frame.beads[0].radius, 0.0);
         const double angle = 6.283185307179586476925287 * TURNS * part;
         CHECK_CLOSE(cos(frame.magnet_angle), cos(angle), 1e-9);
         CHECK_CLOSE(sin(frame.magnet_angle), sin(angle), 1e-9);
     }
+    fst_film_cast_free(&cast);
     fst_table_free(&table);
 }
 

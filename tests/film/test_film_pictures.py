@@ -5,13 +5,13 @@ tests: film/cairo_module.c film/film.c"""
 
 import math
 import os
-import struct
 import subprocess
 import sys
 import tempfile
 import unittest
-import zlib
 from pathlib import Path
+
+from pictures import read_png, rows_of
 
 FESTOON = os.environ["FESTOON"]
 SIZE, LENGTH, WIDTH, RADIUS = 240, 23.0, 40.0, 2.5  # pixels; mm
@@ -29,27 +29,6 @@ if "cairo yes" not in festoon("--version"):
     sys.exit(77)
 
 
-def read_png(path):
-    """Rows of (r, g, b) of an 8-bit RGB image without interlacing."""
-    data, at, packed = path.read_bytes(), 8, b""
-    while at < len(data):
-        size, kind = struct.unpack(">I4s", data[at:at + 8])
-        if kind == b"IDAT":
-            packed += data[at + 8:at + 8 + size]
-        at += 12 + size
-    raw, stride, rows, before = zlib.decompress(packed), 3 * SIZE, [], bytearray(3 * SIZE)
-    for y in range(SIZE):
-        method, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-        for i in range(stride):
-            left, up, corner = line[i - 3] if i >= 3 else 0, before[i], before[i - 3] if i >= 3 else 0
-            guess = left + up - corner
-            paeth = min((left, up, corner), key=lambda v: abs(guess - v))
-            line[i] = (line[i] + (0, left, up, (left + up) // 2, paeth)[method]) % 256
-        rows.append([tuple(line[i:i + 3]) for i in range(0, stride, 3)])
-        before = line
-    return rows
-
-
 def distance(a, b):
     """The distance between two colours."""
     return math.dist(a, b)
@@ -61,9 +40,7 @@ class Pictures(unittest.TestCase):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             festoon("run", "--set", "run.periods=3", "--set", "run.discard=1", "--csv", folder / "t.csv")
-            lines = [line for line in (folder / "t.csv").read_text().splitlines() if not line.startswith("#")]
-            names = [word.split()[0] for word in lines[0].split(",")]
-            rows = [dict(zip(names, map(float, line.split(",")))) for line in lines[1:]]
+            rows = rows_of(folder / "t.csv")
             festoon("movie", folder / "t.csv", "-o", folder / "frames", "--from", "0", "--to", "2", "--fps", "3",
                     "--turn", "1", "--size", f"{SIZE}x{SIZE}")
             shown = [row for row in rows if row["drive_turns"] <= 2 + 1e-9]
@@ -73,7 +50,7 @@ class Pictures(unittest.TestCase):
             poles = 0
             for i in range(0, 7):
                 row = min(rows, key=lambda r, turns=i / 3: abs(r["drive_turns"] - turns))
-                pixels = read_png(folder / "frames" / f"frame-{i + 1:05}.png")
+                pixels = read_png(folder / "frames" / f"frame-{i + 1:05}.png")[2]
 
                 def at(x, y, pixels=pixels):
                     return pixels[round(SIZE / 2 - scale * y)][round(SIZE / 2 + scale * x)]

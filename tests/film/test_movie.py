@@ -5,13 +5,13 @@ tests: film/film.c io/ffmpeg.c cli/movie.c"""
 import math
 import os
 import shutil
-import struct
 import subprocess
 import sys
 import tempfile
 import unittest
-import zlib
 from pathlib import Path
+
+from pictures import read_png, rows_of
 
 FESTOON = os.environ["FESTOON"]
 
@@ -23,33 +23,6 @@ def run(*arguments, **more):
 
 if "cairo yes" not in run("--version").stdout:
     sys.exit(77)
-
-
-def read_png(path):
-    """Width, height and rows of (r, g, b) of an 8-bit RGB image without interlacing."""
-    data, at, packed = path.read_bytes(), 8, b""
-    assert data[:8] == b"\x89PNG\r\n\x1a\n"
-    while at < len(data):
-        size, kind = struct.unpack(">I4s", data[at:at + 8])
-        body = data[at + 8:at + 8 + size]
-        if kind == b"IHDR":
-            width, height, depth, colour = struct.unpack(">IIBB", body[:10])
-            assert (depth, colour) == (8, 2)
-        elif kind == b"IDAT":
-            packed += body
-        at += 12 + size
-    raw, stride, rows, before = zlib.decompress(packed), 3 * width, [], bytearray(3 * width)
-    for y in range(height):
-        method, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-        for i in range(stride):
-            left = line[i - 3] if i >= 3 else 0
-            up, corner = before[i], before[i - 3] if i >= 3 else 0
-            guess = left + up - corner
-            paeth = min((left, up, corner), key=lambda v: abs(guess - v))
-            line[i] = (line[i] + (0, left, up, (left + up) // 2, paeth)[method]) % 256
-        rows.append([tuple(line[i:i + 3]) for i in range(0, stride, 3)])
-        before = line
-    return width, height, rows
 
 
 class Movie(unittest.TestCase):
@@ -86,9 +59,7 @@ class Movie(unittest.TestCase):
 
     def test_the_bead_is_where_the_trajectory_has_it(self):
         """The centre of the ball's outline, searched around the place that the file gives."""
-        lines = [line for line in self.track.read_text().splitlines() if not line.startswith("#")]
-        names = [name.split()[0].split("(")[0] for name in lines[0].split(",")]
-        rows = [dict(zip(names, map(float, line.split(",")))) for line in lines[1:]]
+        rows = rows_of(self.track)
         shown = [row for row in rows if row["drive_turns"] <= 4.0 + 1e-9]
         reach = max(1.25 * max(max(abs(r["x"]), abs(r["y"])) for r in shown), 1.35) * 23.0
         reach = max(reach, 1.05 * math.hypot(28.0, 20.0))  # room for the bar as it turns
