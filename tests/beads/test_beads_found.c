@@ -76,7 +76,7 @@ static void test_pair(void **unused)
     CHECK_CLOSE(orbit.drive_power, orbit.plate_power + orbit.pair_power, 1e-12);
 }
 
-/* At 26 Hz opposition is unstable. */
+/* At 26 Hz opposition is unstable, and a pair at about 171 degrees is stable. */
 static void test_pair_aside(void **unused)
 {
     (void)unused;
@@ -88,6 +88,11 @@ static void test_pair_aside(void **unused)
     beads[0].drive_frequency = beads[1].drive_frequency = 26;
     assert_int_equal(fst_beads_orbit_find(beads, 2, &options, &orbit, &error), FST_OK);
     assert_true(orbit.exchanges && !orbit.stable);
+    beads[1].start_phi = 173;
+    assert_int_equal(fst_beads_orbit_find(beads, 2, &options, &orbit, &error), FST_OK);
+    assert_true(!orbit.exchanges && orbit.stable);
+    const double *a = orbit.state[0], *b = orbit.state[1];
+    CHECK_CLOSE(fabs(beads_turned_by(a, b)) * 360 / TURN, 171, 2);
 }
 
 static void test_refusals(void **unused)

@@ -209,6 +209,30 @@ static void field_upward(const void *unused, double x, double y, double z, doubl
     b[2] = even_field;
 }
 
+/* Two beads on a plate in such a field. */
+static beads_world dimer_in_even_field(void)
+{
+    beads_world world = free_beads(2);
+    world.plate = 0.5;
+    world.gravity = 9.81 / (0.023 * 312.5 * 312.5);
+    world.field = field_upward;
+    world.body[0].strength = world.body[1].strength = 1.5 * EPS * EPS;
+    beads_number_contacts(&world, 1.0, 1.0);
+    return world;
+}
+
+/* They touch, with the axis at the angle `lean` over the plate and the moments at the angle `moments`. */
+static void lay_dimer(double lean, double moments, double *state)
+{
+    memset(state, 0, 2 * FST_BEAD_NUMBERS * sizeof *state);
+    bead_of(state, 1)[0] = 2 * EPS * cos(lean);
+    bead_of(state, 1)[2] = 2 * EPS * sin(lean);
+    for (int i = 0; i < 2; ++i) {
+        bead_of(state, i)[BEADS_N] = cos(moments);
+        bead_of(state, i)[BEADS_N + 2] = sin(moments);
+    }
+}
+
 /* A stack of three, upright: loads. */
 static void test_stack(void **unused)
 {
@@ -229,27 +253,17 @@ static void test_stack(void **unused)
     free(flow);
 }
 
-/* A flat dimer in an even vertical field b has tilted moments, sin a = k b d^3/(3 chi); one of its beads has no load at
- * b = 0.026787862913. */
+/* A dimer on the plate in an even vertical field b has tilted moments, sin a = k b d^3/(3 chi); one of its beads has no
+ * load at b = 0.026787862913. */
 static void test_dimer_in_even_field(void **unused)
 {
     (void)unused;
-    beads_world world = free_beads(2);
     const double k = 1.5 * EPS * EPS, d = 2 * EPS, b = 0.026787862913;
-    world.plate = 0.5;
-    world.gravity = 9.81 / (0.023 * 312.5 * 312.5);
-    world.field = field_upward;
-    world.body[0].strength = world.body[1].strength = k;
-    beads_number_contacts(&world, 1.0, 1.0);
+    const beads_world world = dimer_in_even_field();
     for (int side = -1; side <= 1; ++side) {
         even_field = b * (1 + 1e-6 * side);
-        double state[BEADS_NUMBERS] = {0};
-        const double sine = k * even_field * d * d * d / (3 * CHI);
-        for (int i = 0; i < 2; ++i) {
-            bead_of(state, i)[0] = (i ? 1 : -1) * EPS;
-            bead_of(state, i)[BEADS_N] = sqrt(1 - sine * sine);
-            bead_of(state, i)[BEADS_N + 2] = sine;
-        }
+        double state[BEADS_NUMBERS];
+        lay_dimer(0.0, asin(k * even_field * d * d * d / (3 * CHI)), state);
         beads_flow *flow = begin_beads(&world, state, 1e-10);
         const double least = fmin(flow->start.held[0], flow->start.held[1]);
         CHECK_CLOSE(flow->start.torque[0][1], 0, 1e-15);
@@ -257,6 +271,37 @@ static void test_dimer_in_even_field(void **unused)
             assert_int_equal(least == 0.0, side > 0);
         else
             CHECK_CLOSE(least / world.gravity, 0, 1e-10);
+        free(flow);
+    }
+}
+
+/* Beyond that it leans: with the axis at the angle s over the plate and the moments at a, the energy is
+ * -(3 chi/d^3) cos^2(a - s) - 2 k b sin a + g d sin s, and least where k b cos a = eps g cos s and
+ * (3 chi/d^3) sin 2(a - s) = 2 eps g cos s.  It stands from b = 0.026822922741 on. */
+static void test_leaning_dimer(void **unused)
+{
+    (void)unused;
+    static const double degrees[] = {0, 20, 50, 80, 89.999};
+    const beads_world world = dimer_in_even_field();
+    const double k = 1.5 * EPS * EPS, d = 2 * EPS, stiff = 3 * CHI / (d * d * d), g = world.gravity;
+    for (int i = 0; i < 5; ++i) {
+        const double lean = degrees[i] * TURN / 360;
+        const double moments = lean + 0.5 * asin(2 * EPS * g * cos(lean) / stiff);
+        double state[BEADS_NUMBERS];
+        even_field = EPS * g * cos(lean) / (k * cos(moments));
+        if (i == 0)
+            CHECK_CLOSE(even_field, 0.026787862913, 1e-12);
+        if (i == 4)
+            CHECK_CLOSE(even_field, 0.026822922741, 1e-12);
+        lay_dimer(lean, moments, state);
+        beads_flow *flow = begin_beads(&world, state, 1e-10);
+        CHECK_CLOSE(flow->start.held[0], 2 * g, 1e-13);
+        assert_true(flow->start.held[2] > 3);
+        for (int bead = 0; bead < 2; ++bead)
+            for (int m = 0; m < 3; ++m) {
+                CHECK_CLOSE(flow->start.force[bead][m], 0, 1e-14);
+                CHECK_CLOSE(flow->start.torque[bead][m], 0, 1e-15);
+            }
         free(flow);
     }
 }
@@ -432,11 +477,17 @@ static void test_ejected(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_apart),      cmocka_unit_test(test_snap),
-        cmocka_unit_test(test_symmetries), cmocka_unit_test(test_single_beads),
-        cmocka_unit_test(test_stack),      cmocka_unit_test(test_dimer_in_even_field),
-        cmocka_unit_test(test_bars),       cmocka_unit_test(test_walker),
-        cmocka_unit_test(test_ejected),    cmocka_unit_test(test_energy_of_unlike_beads),
+        cmocka_unit_test(test_apart),
+        cmocka_unit_test(test_snap),
+        cmocka_unit_test(test_symmetries),
+        cmocka_unit_test(test_single_beads),
+        cmocka_unit_test(test_stack),
+        cmocka_unit_test(test_dimer_in_even_field),
+        cmocka_unit_test(test_leaning_dimer),
+        cmocka_unit_test(test_bars),
+        cmocka_unit_test(test_walker),
+        cmocka_unit_test(test_ejected),
+        cmocka_unit_test(test_energy_of_unlike_beads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -241,26 +241,6 @@ static void test_opposite_pair(void **unused)
     }
 }
 
-/* At 30 Hz beads that start with 105.4 degrees between them are on the border between two that stay apart and two that
- * snap together after some hundred turns. */
-static void test_border(void **unused)
-{
-    (void)unused;
-    fst_params beads[2];
-    fst_beads_options options = fst_default_beads_options();
-    options.chi = 1.243e-3;
-    for (int side = -1; side <= 1; side += 2) {
-        two_beads(105.4 + 0.6 * side, beads);
-        for (int i = 0; i < 2; ++i) {
-            beads[i].run_periods = 600;
-            beads[i].run_discard = 550;
-        }
-        const fst_beads_result *r = result_of(beads, 2, &options);
-        assert_int_equal(r->counts[FST_BEAD_EVENT_TOUCH] > 0, side < 0);
-        assert_int_equal(r->outcome == FST_BEADS_APART, side > 0);
-    }
-}
-
 /* Six beads, evenly spread, fall together.  On the way a contact whose load vanishes may neither press, nor graze, nor
  * open alone: it opens together with another. */
 static void test_contacts_that_open_together(void **unused)
@@ -384,7 +364,6 @@ int main(void)
         cmocka_unit_test(test_interrupted),
         cmocka_unit_test(test_opposite_pair),
         cmocka_unit_test(test_contacts_that_open_together),
-        cmocka_unit_test(test_border),
         cmocka_unit_test(test_walker_by_stepping),
         cmocka_unit_test(test_bar_by_stepping),
     };

@@ -60,18 +60,21 @@ static void test_relaxation(void **unused)
     free(flow);
 }
 
-/* The contact force is (chi/d^4) (3/2) (cos delta + 3 cos beta) at rest, so the pair parts beyond 109.471 degrees of
- * beta. */
+/* The contact force is (chi/d^4) (3/2) (cos delta + 3 cos beta) - (d/2) psi'^2, psi' being the rate at which the axis
+ * turns; so at rest the pair parts beyond 109.471 degrees of beta. */
 static void test_contact_force(void **unused)
 {
     (void)unused;
     const beads_world world = free_beads(2);
     const double d = 2 * EPS, degree = TURN / 360;
     for (double beta = 0; beta < 180; beta += 7)
-        for (double delta = 0; delta < 90; delta += 40) {
+        for (double delta = 0, turning = 0; delta < 90; delta += 40, turning += 2) {
             double state[2 * FST_BEAD_NUMBERS];
-            const double force = CHI / pow(d, 4) * 1.5 * (cos(delta * degree) + 3 * cos(beta * degree));
+            const double force = CHI / pow(d, 4) * 1.5 * (cos(delta * degree) + 3 * cos(beta * degree)) -
+                                 d / 2 * turning * turning;
             dimer((beta + delta) / 2 * degree, (beta - delta) / 2 * degree, state);
+            for (int i = 0; i < 2; ++i)
+                bead_of(state, i)[BEADS_V + 1] = turning * bead_of(state, i)[0];
             beads_flow *flow = begin_beads(&world, state, 1e-10);
             assert_int_equal(flow->modes.contact[2], force > 0 ? BEADS_PRESSING : BEADS_OPEN);
             CHECK_CLOSE(flow->start.held[2], force > 0 ? force : 0, 1e-14);
@@ -206,6 +209,9 @@ static void test_what_is_kept(void **unused)
             fail_msg("beads_go: %s", error.sentence);
         const double now = bead_of(flow->step.y, 5)[BEADS_PAIR];
         assert_true(now >= loss - 1e-15 && flow->impacts >= impacts - 1e-14);
+        for (int k = 0; k < world.contacts; ++k)
+            if (flow->modes.contact[k] != BEADS_OPEN)
+                assert_true(dot(flow->start.friction[k], flow->start.slip[k]) <= 0);
         loss = now;
         impacts = flow->impacts;
     }

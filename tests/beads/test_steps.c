@@ -205,7 +205,8 @@ static double bar_power(const beads_world *world, int steps_a_turn)
     const double before = s->work[BEADS_PLATE] + s->work[BEADS_PAIR];
     make_steps(s, 10 * steps_a_turn);
     const double power = (s->work[BEADS_PLATE] + s->work[BEADS_PAIR] - before) / (10 * steps_a_turn * s->h);
-    assert_true(s->deepest < 1e-8);
+    assert_true(s->deepest <
+                1e-8); /* rates that the solver leaves add up: 1e-6 of what forces change in a step */
     end_steps(s);
     return power;
 }
@@ -308,15 +309,15 @@ static void test_crowd(void **unused)
         residual[fine] = fabs(beads_steps_residual(s, energy));
         assert_true(s->counts[FST_BEAD_EVENT_TOUCH] > 10);
         assert_true(s->work[BEADS_PLATE] > 0 && s->work[BEADS_PAIR] > 0 && s->impacts > 0);
-        assert_true(s->deepest < 1e-7 && s->residual < 1e-6);
+        assert_true(s->deepest < 1e-9 && s->residual < 1e-7);
         end_steps(s);
     }
     beads_steps *one = begin_steps(&world, state, 1e-3), *two = begin_steps(&world, other, 1e-3);
-    while (one->counts[FST_BEAD_EVENT_TOUCH] < 3)
+    while (one->counts[FST_BEAD_EVENT_TOUCH] < 12)
         make_steps(one, 1);
     make_steps(two, one->steps);
     for (int i = 0; i < COUNT; ++i)
-        CHECK_CLOSE(greatest_difference(bead_of(one->y, i), bead_of(two->y, (7 * i + 3) % COUNT), 6), 0, 1e-5);
+        CHECK_CLOSE(greatest_difference(bead_of(one->y, i), bead_of(two->y, (7 * i + 3) % COUNT), 6), 0, 1e-8);
     end_steps(one);
     end_steps(two);
     assert_true(residual[0] < 0.05 && residual[1] < 0.5 * residual[0]);
