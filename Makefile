@@ -55,6 +55,7 @@ reliability: ## attack what must not be lost, at full length; write docs/reliabi
 	    if [ ! -e $$script ]; then echo "$$script: there is no such campaign yet"; continue; fi; \
 	    echo "$$script"; \
 	    FESTOON="$(CURDIR)/build/festoon" SOURCE_DIR="$(CURDIR)" BUILD_DIR="$(CURDIR)/build" \
+	        PYTHONPATH="$(CURDIR)/tests/helpers" \
 	        python3 -B $$script --write; \
 	    status=$$?; \
 	    if [ $$status -eq 77 ]; then echo "$$script: skipped"; elif [ $$status -ne 0 ]; then failed="$$failed $$name"; fi; \

@@ -27,19 +27,20 @@ static fst_status export_keys(const arguments *given, const char *to, FILE *out,
 }
 
 /* Say how many points of an interrupted sweep have a row. */
-static void tell_of_missing(const char *path)
+static fst_status tell_of_missing(const char *path, fst_error *error)
 {
     char name[SHOWN_SIZE];
     fst_sweep_table table;
-    if (fst_sweep_read(path, NULL, 0, &table, NULL) != FST_OK)
-        return;
-    if (!table.refine && table.rows < fst_grid_points(table.grid))
+    const fst_status status = fst_sweep_read(path, NULL, 0, &table, error);
+    if (status == FST_OK && !table.refine && table.rows < fst_grid_points(table.grid))
         (void)fprintf(
             stderr,
             "festoon: %s: %lld of %lld points have a row, because the sweep was interrupted; the same "
             "command goes on\n",
             shown(path, name), (long long)table.rows, (long long)fst_grid_points(table.grid));
-    fst_sweep_table_free(&table);
+    if (status == FST_OK)
+        fst_sweep_table_free(&table);
+    return status;
 }
 
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
@@ -63,9 +64,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
                                 : fst_sweep_export(operand(given), (fst_export_format)chosen, to, out, error);
     if (status == FST_OK && to)
         tell_written(to, "");
-    if (status == FST_OK)
-        tell_of_missing(operand(given));
-    return status;
+    return status == FST_OK ? tell_of_missing(operand(given), error) : status;
 }
 
 const command export_command = {

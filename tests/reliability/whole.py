@@ -1,25 +1,29 @@
 #!/usr/bin/env python3
 """A success that is told is whole: every command while memory runs out, and while a write or a read fails.
 
-    tests/reliability/whole.py [--places N] [--write] [--command NAME]...
+    tests/reliability/whole.py [--places N | --few N] [--write] [--command NAME]...
 
 Every command, with each of its formats, runs undisturbed, and then again and again with a preloaded library: its n-th
 allocation fails; its n-th write fails because the disk is full or broken; its n-th read
-fails.  n goes through all numbers up to N, and through N of them spread evenly where there are more (2000 unless told).
-The promise holds when a command ends with status 0 and the same outputs to the last byte, or with status 1, one sentence,
-and of each output all or nothing; never with a crash, another status, or a file left over.  Status 1: a promise was broken.
+fails.  n goes through all numbers up to N, and through N of them spread evenly where there are more (2000 unless told;
+a tenth, but 40 at least, of commands that take long).
+--few N: N allocations over all commands together, and a write and a read of each; what takes long is left out.
+The promise holds when a command ends with status 0, the same outputs to the last byte and the same warnings, or with status 1, one sentence, and of each output all or nothing; never with a crash, another status, or a file
+left over.  Status 1: a promise was broken.
 
 Environment: FESTOON, SOURCE_DIR, BUILD_DIR as for the tests.
 """
 
 import argparse
 import concurrent.futures
+import contextlib
 import errno
 import hashlib
 import os
 import queue
 import re
 import shutil
+import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -29,21 +33,20 @@ import films
 import hdf5_reader
 import section
 import tracks
-from faults import BUILD, FESTOON, PRELOADED, read, some
+from faults import FESTOON, PRELOADED, SOURCE, read, some
 
 SHORT = ("--set", "run.periods=6", "--set", "run.discard=2", "--set", "run.samples=16")
 MAP = ("--csv", "map.csv", "--radius", "20mm", "--spacing", "4mm", "--set", "magnet.b0=10mT")
 BROKE_DOWN = "festoon: a library that this command uses broke down, mostly because memory ran out"
 TWO_AT_ONCE = 2
-SHORT_TEST = 40  # with so many places, or less, what takes long is left out
 
 
 class Command:
     """A command: its words, and what is special about it."""
 
-    def __init__(self, words, places=1.0, program="festoon", needs=None):
+    def __init__(self, words, slow=False, program="festoon", needs=None):
         self.words = words
-        self.places = places    # the part of the places that a short test tries, because its work is longer; 0: none
+        self.slow = slow        # at fewer places; left out where few are tried
         self.program = program  # the process in which things fail
         self.needs = needs      # a helper that must be there
         self.name = self.wanted = None
@@ -53,18 +56,16 @@ class Command:
 
 def commands():
     """Every command and every format that it writes.  They run in a folder of their own beside the folder `given`."""
-    scene, csv, h5 = "../given/scene.yaml", "../given/t.csv", "../given/t.h5"
-    branch, sweep, track, film = "../given/b.json", "../given/s.db", "../given/track.csv", "../given/a.mp4"
-    rows = "../given/points.csv"
-    over = ("--threads", "1", "--over", "model.kappa=1:2:3", "-o", "s.db")
-    few = ("--to", "1", "--fps", "4", "--size", "160x160")
-    counter = ("--kind", "counter", "--over", "drive.omega=0.5:0.501")
-    drawn, filmed = {"needs": "gnuplot", "places": 0}, {"needs": "ffmpeg", "places": 0}
+    return {**of_scenes(), **of_beads(), **of_orbits(), **of_sweeps(), **of_figures(), **of_films()}
+
+
+def of_scenes():
+    scene = "../given/scene.yaml"
     return {
-        "help run": Command(["help", "run"], places=0.5),
-        "completion bash": Command(["completion", "bash"], places=0.2),
-        "schema": Command(["schema"], places=0.2),
-        "schema --json": Command(["schema", "--json"], places=0.5),
+        "help run": Command(["help", "run"]),
+        "completion bash": Command(["completion", "bash"]),
+        "schema": Command(["schema"]),
+        "schema --json": Command(["schema", "--json"]),
         "init": Command(["init", "new.yaml"]),
         "init -": Command(["init", "-"]),
         "check": Command(["check", scene]),
@@ -75,47 +76,117 @@ def commands():
                                       "--ramp-wait", "0"]),
         "run -o .csv": Command(["run", *SHORT, "-o", "t.csv"]),
         "run --csv --units lab": Command(["run", *SHORT, "--csv", "t.csv", "--units", "lab"]),
-        "run -o .h5": Command(["run", *SHORT, "-o", "t.h5"], places=0.5),
-        "sweep": Command(["sweep", *SHORT, *over, "--json"], places=0.5),
-        "sweep --refine": Command(["sweep", *SHORT, "--threads", "1", "--over", "model.kappa=1:2:5", "--refine", "1", "-o",
-                                   "s.db"], places=0.2),
-        "export --csv": Command(["export", sweep, "--csv"]),
-        "export --csv -o": Command(["export", sweep, "--csv", "-o", "e.csv"], places=0.5),
-        "export --key": Command(["export", sweep, "--csv", "--key", "mean_r,regime", "--units", "lab"], places=0.5),
-        "export --json": Command(["export", sweep, "--json"], places=0.5),
-        "export --hdf5": Command(["export", sweep, "--hdf5", "-o", "e.h5"], places=0.5),
+        "run -o .h5": Command(["run", *SHORT, "-o", "t.h5"]),
         "field --at": Command(["field", "--at", "1,0.5"]),
         "field --at --json": Command(["field", "--at", "1,0.5", "--json", "--units", "si"]),
         "field --csv": Command(["field", *MAP]),
         "field of a map": Command(["field", "--at", "0.1,0.1", "--json", "--set", "magnet.shape=grid", "--set",
                                    "magnet.file=../given/map.csv"]),
-        "field -o": Command(["field", "-o", "f.svg"], **drawn),
-        "orbit": Command(["orbit"], places=0.5),
-        "orbit --json": Command(["orbit", "--json"], places=0.5),
-        "locked": Command(["locked"], places=0),
-        "locked --json": Command(["locked", "--json"], places=0.1),
-        "branch --json": Command(["branch", *counter, "--json"], places=0.5),
-        "branch -o": Command(["branch", *counter, "-o", "b.json"]),
-        "lyapunov": Command(["lyapunov", *SHORT], places=0.2),
+        "field of coils": Command(["field", "../given/worlds/coils.yaml", "--at", "0,0", "--time", "125ms", "--json"]),
+        "lyapunov": Command(["lyapunov", *SHORT]),
         "lyapunov --json": Command(["lyapunov", *SHORT, "--json"]),
-        "plot .csv": Command(["plot", csv, "-o", "p.svg"], **drawn),
-        "plot .h5": Command(["plot", h5, "--kind", "time", "-o", "p.svg"], **drawn),
-        "plot .json": Command(["plot", branch, "-o", "p.svg"], **drawn),
-        "plot .db": Command(["plot", sweep, "--key", "regime", "-o", "p.svg"], **drawn),
-        "plot .db --points": Command(["plot", "../given/f.db", "--points", rows, "-o", "p.svg"], **drawn),
-        "movie .mp4": Command(["movie", csv, *few, "-o", "m.mp4"], **filmed),
-        "movie FOLDER": Command(["movie", csv, *few, "-o", "frames"], places=0),
-        "movie --camera": Command(["movie", csv, *few, "--camera", "-o", "m.mp4"], **filmed),
-        "measure": Command(["measure", track], places=0.5),
+        "paper --statements": Command(["paper", "--statements"], program="festoon-paper"),
+    }
+
+
+def of_beads():
+    """Several beads, and one bead in a world of three dimensions."""
+    walker, water = "../given/beads/walker.yaml", "../given/worlds/water.yaml"
+    floater, many = "../given/worlds/levitation.yaml", ("--set", "run.method=stepping")
+    return {
+        "init --world": Command(["init", "new.yaml", "--world", "levitation"]),
+        "check of beads --json": Command(["check", walker, "--json"]),
+        "run of beads": Command(["run", walker, *SHORT]),
+        "run of beads --json": Command(["run", walker, *SHORT, "--json"]),
+        "run of beads -o .h5": Command(["run", walker, *SHORT, "-o", "t.h5"]),
+        "run of beads --csv": Command(["run", walker, *SHORT, "--csv", "t.csv", "--units", "lab"]),
+        "run of beads, stepping": Command(["run", walker, *SHORT, *many, "--json"]),
+        "run of a world": Command(["run", water, *SHORT]),
+        "run of a world --json": Command(["run", water, *SHORT, "--json"]),
+        "run of a world -o .h5": Command(["run", water, *SHORT, "-o", "t.h5"]),
+        "run of a world --csv": Command(["run", floater, "--set", "run.duration=20ms", "--csv", "t.csv"]),
+        "locked of beads --json": Command(["locked", "../given/beads/bar.yaml", "--json"]),
+        "locked of a floater": Command(["locked", floater]),
+        "locked of a floater --json": Command(["locked", floater, "--json"]),
+        "orbit of beads": Command(["orbit", "../given/beads/opposite.yaml"], slow=True),
+        "orbit of beads --json": Command(["orbit", "../given/beads/opposite.yaml", "--json"], slow=True),
+        "branch --kind levitating": Command(["branch", floater, "--kind", "levitating", "--over",
+                                             "drive.frequency=199:200", "--json"], slow=True),
+        "sweep of beads": Command(["sweep", walker, *SHORT, "--threads", "1", "--over", "impact.restitution=0:0.5:2",
+                                   "-o", "s.db"]),
+        "sweep --levitation": Command(["sweep", floater, "--levitation", "--threads", "1", "--over",
+                                       "drive.frequency=199:200:2", "-o", "s.db"]),
+        "export of beads --csv": Command(["export", "../given/w.db", "--csv"]),
+        "export of beads --hdf5": Command(["export", "../given/w.db", "--hdf5", "-o", "e.h5"]),
+        "export of floaters --json": Command(["export", "../given/l.db", "--json"]),
+    }
+
+
+def of_orbits():
+    counter = ("--kind", "counter", "--over", "drive.omega=0.5:0.501")
+    return {
+        "orbit": Command(["orbit"]),
+        "orbit --json": Command(["orbit", "--json"]),
+        "locked": Command(["locked"], slow=True),
+        "locked --json": Command(["locked", "--json"], slow=True),
+        "branch": Command(["branch", *counter]),
+        "branch --json": Command(["branch", *counter, "--json"]),
+        "branch -o": Command(["branch", *counter, "-o", "b.json"]),
+    }
+
+
+def of_sweeps():
+    sweep, over = "../given/s.db", ("--threads", "1", "--over", "model.kappa=1:2:3", "-o", "s.db")
+    return {
+        "sweep": Command(["sweep", *SHORT, *over, "--json"]),
+        "sweep --refine": Command(["sweep", *SHORT, "--threads", "1", "--over", "model.kappa=1:2:5", "--refine", "1", "-o",
+                                   "s.db"]),
+        "export --csv": Command(["export", sweep, "--csv"]),
+        "export --csv -o": Command(["export", sweep, "--csv", "-o", "e.csv"]),
+        "export --key": Command(["export", sweep, "--csv", "--key", "mean_r,regime", "--units", "lab"]),
+        "export --json": Command(["export", sweep, "--json"]),
+        "export --hdf5": Command(["export", sweep, "--hdf5", "-o", "e.h5"]),
+        "export of a part": Command(["export", "../given/part.db", "--csv", "--key", "mean_r"]),
+    }
+
+
+def of_figures():
+    """What gnuplot draws, and measured numbers and fits, which may be drawn."""
+    csv, track, rows = "../given/t.csv", "../given/track.csv", "../given/points.csv"
+    drawn = {"needs": "gnuplot", "slow": True}
+    free = ("--free", "model.kappa")
+    return {
+        "measure": Command(["measure", track]),
         "measure --json -o": Command(["measure", track, "--json", "-o", "points.csv"]),
-        "measure --figure": Command(["measure", track, "--figure", "m.svg", "--compare", scene], **drawn),
+        "measure --figure": Command(["measure", track, "--figure", "m.svg", "--compare", "../given/scene.yaml"], **drawn),
+        "fit": Command(["fit", rows, *free], slow=True),
+        "fit --json": Command(["fit", rows, *free, "--json"]),
+        "fit --compare --json": Command(["fit", rows, *free, "--compare", "--json"], slow=True),
+        "fit -o": Command(["fit", rows, *free, "-o", "f.svg"], **drawn),
+        "field -o": Command(["field", "-o", "f.svg"], **drawn),
+        "plot .csv": Command(["plot", csv, "-o", "p.svg"], **drawn),
+        "plot .h5": Command(["plot", "../given/t.h5", "--kind", "time", "-o", "p.svg"], **drawn),
+        "plot .json": Command(["plot", "../given/b.json", "-o", "p.svg"], **drawn),
+        "plot .db": Command(["plot", "../given/s.db", "--key", "regime", "-o", "p.svg"], **drawn),
+        "plot .db --points": Command(["plot", "../given/f.db", "--points", rows, "-o", "p.png"], **drawn),
+        "plot of beads": Command(["plot", "../given/w.h5", "-o", "p.svg"], **drawn),
+        "plot --kind groups": Command(["plot", "../given/w.h5", "--kind", "groups", "-o", "p.svg"], **drawn),
+        "plot of floaters": Command(["plot", "../given/l.db", "-o", "p.svg"], **drawn),
+    }
+
+
+def of_films():
+    csv, film = "../given/t.csv", "../given/a.mp4"
+    few = ("--to", "1", "--fps", "4", "--size", "160x160")
+    filmed = {"needs": "ffmpeg", "slow": True}
+    return {
+        "movie .mp4": Command(["movie", csv, *few, "-o", "m.mp4"], **filmed),
+        "movie .gif": Command(["movie", csv, *few, "-o", "m.gif"], **filmed),
+        "movie FOLDER": Command(["movie", csv, *few, "-o", "frames"], slow=True),
+        "movie --camera": Command(["movie", csv, *few, "--camera", "-o", "m.mp4"], **filmed),
         "track": Command(["track", film, "-o", "t.csv"], **filmed),
         "track --picture": Command(["track", film, "-o", "t.csv", "--picture", "t.png"], **filmed),
         "track --overlay": Command(["track", film, "-o", "t.csv", "--overlay", "t.mp4"], **filmed),
-        "fit": Command(["fit", rows, "--free", "model.kappa"], places=0),
-        "fit --json": Command(["fit", rows, "--free", "model.kappa", "--json"], places=0.3),
-        "fit -o": Command(["fit", rows, "--free", "model.kappa", "-o", "f.svg"], **drawn),
-        "paper --statements": Command(["paper", "--statements"], program="festoon-paper"),
     }
 
 
@@ -162,7 +233,7 @@ def made(folder):
 class Campaign:
     """The folder of all: `given`, and a folder for each process that runs at a time."""
 
-    def __init__(self, folder, chosen, every):
+    def __init__(self, folder, chosen, few):
         self.root = os.path.realpath(folder)
         self.commands, self.tally, self.violations = {}, {}, []
         self.slots = queue.SimpleQueue()
@@ -172,7 +243,7 @@ class Campaign:
             os.mkdir(place(self.root, str(number)))
             self.slots.put(str(number))
         for name, command in commands().items():
-            if (name in chosen if chosen else every or command.places) and (not command.needs or shutil.which(command.needs)):
+            if (name in chosen if chosen else not few or not command.slow) and (not command.needs or shutil.which(command.needs)):
                 command.name = name
                 self.learn(command)
 
@@ -216,16 +287,28 @@ class Campaign:
         command.counts = {k: int(text.split(k + "=")[1].split()[0]) for k in ("memory", "write", "read")}
         self.commands[command.name] = command
 
-    def cases(self, command, places, every):
+    def cases(self, command, places):
         """The faults to be tried: (row of the report, call, error, number)."""
-        few = max(4, round(places * (1 if every else command.places)))
-        for number in some(command.counts["memory"], few):
+        places = min(places, max(40, places // 10)) if command.slow else places
+        few = max(4, places // 4)
+        for number in some(command.counts["memory"], places):
             yield ("an allocation fails", "memory", 0, number)
-        for number in some(command.counts["write"], max(4, few // 4)):
+        for number in some(command.counts["write"], few):
             yield ("a write fails: disk full", "write", errno.ENOSPC, number)
             yield ("a write fails: disk broken", "write", errno.EIO, number)
-        for number in some(command.counts["read"], max(4, few // 4)):
+        for number in some(command.counts["read"], few):
             yield ("a read fails", "read", errno.EIO, number)
+
+    def few(self, total):
+        """The same of few faults: `total` allocations, each command's elsewhere, and a write and a read of each."""
+        commands = list(self.commands.values())
+        for i in range(max(total, len(commands))):
+            command, at = commands[i % len(commands)], i * 0.618034 % 1
+            for fault, call, error in (("an allocation fails", "memory", 0),
+                                       ("a write fails: disk full", "write", (errno.ENOSPC, errno.EIO)[i % 2]),
+                                       ("a read fails", "read", errno.EIO)):
+                if command.counts[call] and (i < len(commands) or call == "memory"):
+                    yield command, (fault, call, error, 1 + int(at * command.counts[call]))
 
     def judge(self, command, case):
         """One case: None, or what is wrong with it."""
@@ -238,6 +321,8 @@ class Campaign:
             pass  # SQLite takes a sector that cannot be read for damage
         elif status not in (0, 1):
             problem = f"status {status}"
+        elif status == 0 and not set(command.told.splitlines()) <= set(words.splitlines()):
+            problem = "status 0, but a warning is missing"
         elif status == 0 and outputs != command.wanted:
             differ = [name for name in {**outputs, **command.wanted} if outputs.get(name) != command.wanted.get(name)]
             problem = f"status 0, but not the same: {', '.join(differ)}"
@@ -260,8 +345,9 @@ class Campaign:
             problem = f"left over: {left}"
         return status, problem, words, broke
 
-    def all(self, places, every):
-        work = [(command, case) for command in self.commands.values() for case in self.cases(command, places, every)]
+    def all(self, places, few):
+        work = list(self.few(few)) if few else [(command, case) for command in self.commands.values()
+                                                for case in self.cases(command, places)]
         with concurrent.futures.ThreadPoolExecutor(TWO_AT_ONCE) as pool:
             for (command, case), (status, problem, words, broke) in zip(
                     work, pool.map(lambda one: self.judge(*one), work)):
@@ -287,6 +373,14 @@ def make_given(folder):
     do("branch", "--kind", "counter", "--over", "drive.omega=0.5:0.501", "-o", "b.json")
     do("sweep", *SHORT, "--over", "model.kappa=1:2:3", "-o", "s.db")
     do("sweep", *SHORT, "--over", "drive.frequency=10Hz:15Hz:3", "-o", "f.db")
+    for name in ("beads", "worlds"):
+        shutil.copytree(place(SOURCE, "examples", name), place(folder, name))
+    do("run", "beads/walker.yaml", *SHORT, "-o", "w.h5")
+    do("sweep", "beads/walker.yaml", *SHORT, "--over", "impact.restitution=0:0.5:2", "-o", "w.db")
+    do("sweep", "worlds/levitation.yaml", "--levitation", "--over", "drive.frequency=199:200:2", "-o", "l.db")
+    shutil.copy(place(folder, "s.db"), place(folder, "part.db"))
+    with contextlib.closing(sqlite3.connect(place(folder, "part.db"))) as base, base:
+        base.execute("DELETE FROM rows WHERE point = 1")
     do("field", *MAP)
     do("run", *SHORT, "--set", "run.periods=16", "--set", "run.discard=0", "--set", "run.samples=64", "--csv", "film.csv")
     if films.can_film():
@@ -320,7 +414,7 @@ def report(campaign, places):
 file all or nothing; also when memory runs out half way.
 
 The attack: `tests/reliability/whole.py` runs each command and format undisturbed, and then again and again while one
-allocation fails (each of them, or {places} spread over all where there are more); while one write of an output fails, because the disk is full or broken; and while one read fails. What
+allocation fails (each of them, or {places} spread over all where there are more; {max(40, places // 10)} of commands that take long); while one write of an output fails, because the disk is full or broken; and while one read fails. What
 a command writes is compared with the undisturbed output, byte by byte (of HDF5: number by number). HDF5, fontconfig and the run-time
 library of Fortran end the program or crash where they get no memory: the program then says so, with status 1, and the
 next command that writes the file removes what was left of it, as after a kill.
@@ -339,6 +433,7 @@ Writes and reads:
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--places", type=int, default=2000)
+    parser.add_argument("--few", type=int, default=0)
     parser.add_argument("--write", action="store_true")
     parser.add_argument("--command", action="append")
     given = parser.parse_args()
@@ -346,8 +441,8 @@ def main():
         print(f"skipped: {PRELOADED} is not built (a build with sanitizers has none)")
         return 77
     with tempfile.TemporaryDirectory(prefix="festoon-whole-") as folder:
-        campaign = Campaign(folder, given.command, given.places > SHORT_TEST)
-        campaign.all(given.places, given.places > SHORT_TEST)
+        campaign = Campaign(folder, given.command, given.few)
+        campaign.all(given.places, given.few)
         total = sum(row[0] for row in campaign.tally.values())
         if given.write:
             section.write("whole", report(campaign, given.places))
