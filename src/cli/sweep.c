@@ -113,15 +113,17 @@ static void warn_once(display *shown, int rank)
 }
 
 /* Look over the grid: for a contradiction, of which one warning is enough, and whether a figure can show it. */
-static void look_over(display *shown, const fst_params *params, const fst_sweep_options *sweep)
+static fst_status look_over(display *shown, const fst_params *params, const fst_sweep_options *sweep,
+                            fst_error *error)
 {
     enum { LOOKS = 255 };
     char sentence[512];
     int64_t varied = 0, stride = 0;
     fst_grid *grid = NULL;
     fst_error ignored;
-    if (fst_grid_new(params, sweep->axes, sweep->axis_count, sweep->seed, &grid, &ignored) != FST_OK)
-        return; /* the sweep itself will say why */
+    const fst_status status = fst_grid_new(params, sweep->axes, sweep->axis_count, sweep->seed, &grid, error);
+    if (status != FST_OK)
+        return status == FST_NO_MEMORY ? status : FST_OK; /* the sweep itself will say why */
     const int64_t last = fst_grid_points(grid) - 1, looks = last < LOOKS ? last : LOOKS;
     for (int64_t i = 0; i <= looks && !shown->to_warn; ++i)
         shown->to_warn = fst_grid_params(grid, looks > 0 ? i * last / looks : 0, &shown->contradiction,
@@ -136,6 +138,7 @@ static void look_over(display *shown, const fst_params *params, const fst_sweep_
         }
     shown->can_draw &= varied == 1 || varied == 2;
     fst_grid_free(grid);
+    return FST_OK;
 }
 
 static fst_status show(void *user, double fraction, const char *part, fst_error *error)
@@ -221,7 +224,9 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (status != FST_OK)
         return status;
     display shown = {.refined = sweep.refine > 0};
-    look_over(&shown, &params, &sweep);
+    status = look_over(&shown, &params, &sweep, error);
+    if (status != FST_OK)
+        return status;
     progress_begin(&shown.line);
     const fst_progress progress = {&shown, show};
     sweep.progress = &progress;

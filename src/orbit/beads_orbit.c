@@ -55,16 +55,17 @@ static double apart(const beads_world *world, const double *a, const double *b)
     return greatest;
 }
 
-static int try_closing(search *s, beads_closing closing, double period, beads_cycle *cycle)
+static fst_status try_closing(search *s, beads_closing closing, double period, beads_cycle *cycle)
 {
     memset(cycle, 0, sizeof *cycle);
     cycle->closing = closing;
     cycle->period = period;
     cycle->modes = s->flow.modes;
     memcpy(cycle->state, s->flow.step.y, (size_t)(FST_BEAD_NUMBERS * s->scene.world.count) * sizeof(double));
-    return beads_cycle_correct(s->scene.lapack, &s->scene.world, RTOL, GAP, cycle, &s->why) == FST_OK &&
-           fabs(cycle->period / period - 1.0) < 0.2 &&
-           apart(&s->scene.world, cycle->state, s->flow.step.y) < NEAR;
+    const fst_status status = beads_cycle_correct(s->scene.lapack, &s->scene.world, RTOL, GAP, cycle, &s->why);
+    const int near = status == FST_OK && fabs(cycle->period / period - 1.0) < 0.2 &&
+                     apart(&s->scene.world, cycle->state, s->flow.step.y) < NEAR;
+    return status == FST_OK && !near ? FST_NO_CONVERGENCE : status;
 }
 
 static int are_equal(const beads_world *world)
@@ -72,19 +73,22 @@ static int are_equal(const beads_world *world)
     return world->count == 2 && memcmp(&world->body[0], &world->body[1], sizeof world->body[0]) == 0;
 }
 
-static int try_newton(search *s, beads_cycle *cycle)
+/* The orbits that may close here, the most symmetric first.  Where memory runs out the others are not tried. */
+static fst_status try_newton(search *s, beads_cycle *cycle)
 {
-    (void)fst_fail(
+    const struct {
+        beads_closing closing;
+        int may, passages;
+    } ways[] = {{BEADS_EXCHANGES, are_equal(&s->scene.world), 1},
+                {BEADS_IMAGES, s->scene.world.count == 1 && s->scene.model->has_s2, 1},
+                {BEADS_CLOSES, 1, 2}};
+    fst_status status = fst_fail(
         &s->why, FST_NO_CONVERGENCE, "orbit",
         "contacts between beads, or with the plate, keep opening and closing, or bead 0 does not turn");
-    if (s->passages < 3)
-        return 0;
-    if (are_equal(&s->scene.world) && try_closing(s, BEADS_EXCHANGES, s->passed[0] - s->passed[1], cycle))
-        return 1;
-    if (s->scene.world.count == 1 && s->scene.model->has_s2 &&
-        try_closing(s, BEADS_IMAGES, s->passed[0] - s->passed[1], cycle))
-        return 1;
-    return try_closing(s, BEADS_CLOSES, s->passed[0] - s->passed[2], cycle);
+    for (int i = 0; i < 3 && s->passages >= 3 && status != FST_OK && status != FST_NO_MEMORY; ++i)
+        if (ways[i].may)
+            status = try_closing(s, ways[i].closing, s->passed[0] - s->passed[ways[i].passages], cycle);
+    return status;
 }
 
 static fst_status find(search *s, beads_cycle *cycle, fst_error *error)
@@ -94,8 +98,11 @@ static fst_status find(search *s, beads_cycle *cycle, fst_error *error)
     for (double next = FIRST_TRY * turn; status == FST_OK;) {
         const int last = s->flow.t.high >= s->scene.longest;
         if (last || s->flow.t.high >= next) {
-            if (try_newton(s, cycle))
+            const fst_status found = try_newton(s, cycle);
+            if (found == FST_OK)
                 break;
+            if (found == FST_NO_MEMORY)
+                return fst_fail(error, found, "orbit", "out of memory");
             next = 2.0 * s->flow.t.high;
         }
         status = last ? fst_fail(error, FST_NO_CONVERGENCE, "orbit",

@@ -119,7 +119,9 @@ fst_status beads_scene_lock(const beads_scene *scene, beads_lock *lock, fst_erro
             if (found == FST_OK && (lock->unstable == 0 || last))
                 break;
             slow = 0.3 * speed;
-            if (last)
+            if (found == FST_NO_MEMORY)
+                status = fst_fail(error, found, "locked", "out of memory");
+            else if (last)
                 status =
                     fst_fail(error, FST_NO_CONVERGENCE, "locked",
                              "from this start the beads come to no state in which they turn with the magnet "

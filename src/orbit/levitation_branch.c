@@ -101,16 +101,18 @@ static fst_status keep_special(tracer *t, fst_special_type type, const point *p,
 
 /* ------------------------------------------------------------------ a step */
 
-/* From t->at by h along its direction into t->next. 0: Newton's method did not find the curve there. */
-static int step(tracer *t, double h)
+/* From t->at by h along its direction into t->next; `found` is 0 if Newton's method did not find the curve there. */
+static fst_status step(tracer *t, double h, int *found, fst_error *error)
 {
     const beads_free_world free = over(t);
-    fst_error ignored;
     t->next = t->at;
     for (int i = 0; i < FST_BEAD_NUMBERS; ++i)
         t->next.lock.state[i] += h * t->at.way[i];
     t->next.value += h * t->at.way[FST_BEAD_NUMBERS] * free.scale;
-    return beads_lock_across(t->lapack, &free, &t->next.value, &t->next.lock, t->next.way, &ignored) == FST_OK;
+    const fst_status status =
+        beads_lock_across(t->lapack, &free, &t->next.value, &t->next.lock, t->next.way, error);
+    *found = status == FST_OK;
+    return status == FST_NO_MEMORY ? status : FST_OK;
 }
 
 /* The eigenvalue whose real part leaves one side of the axis for the other between two points, in both lists. */
@@ -133,8 +135,10 @@ static fst_status locate(tracer *t, fst_special_type type, double h, const point
     double low = 0.0, high = h;
     for (int i = 0; i < LOCATING && high - low > 1e-13; ++i) {
         const double middle = 0.5 * (low + high);
-        if (!step(t, middle))
-            return FST_OK;
+        int found;
+        const fst_status status = step(t, middle, &found, error);
+        if (!found)
+            return status;
         *(test(&t->next, type, which) * before > 0 ? &low : &high) = middle;
     }
     return keep_special(t, type, &t->next, error);
@@ -186,7 +190,10 @@ static fst_status follow(tracer *t, fst_error *error)
     double h = FIRST;
     fst_status status = FST_OK;
     for (int points = 0; points < MOST_POINTS && status == FST_OK;) {
-        const int found = step(t, h);
+        int found;
+        status = step(t, h, &found, error);
+        if (status != FST_OK)
+            return status;
         if (!found || cosine(t->at.way, t->next.way) < MOST_TURN) {
             h *= 0.5;
             if (h < SHORTEST)

@@ -117,6 +117,7 @@ typedef struct binding {
     sqlite3_stmt *insert;
     int place;
     uint64_t sum;
+    int code; /* SQLITE_OK, or why a text was not taken: it is copied */
 } binding;
 
 static void bind_null(binding *b)
@@ -150,7 +151,8 @@ static void bind_text(binding *b, const char *text)
         return;
     }
     b->sum = fst_checksum_bytes(fst_checksum_word(b->sum, SQLITE_TEXT), text, strlen(text));
-    (void)sqlite3_bind_text(b->insert, b->place++, text, -1, SQLITE_TRANSIENT);
+    const int code = sqlite3_bind_text(b->insert, b->place++, text, -1, SQLITE_TRANSIENT);
+    b->code = b->code == SQLITE_OK ? code : b->code;
 }
 
 /* Write a choice by its name. */
@@ -190,10 +192,10 @@ static void bind_own(binding *b, fst_row_kind kind, const fst_sweep_record *reco
     (void)sqlite3_bind_int64(b->insert, b->place, (sqlite3_int64)b->sum);
 }
 
-void fst_sweep_bind(sqlite3_stmt *insert, const fst_grid *grid, uint64_t seed, const fst_sweep_record *record)
+int fst_sweep_bind(sqlite3_stmt *insert, const fst_grid *grid, uint64_t seed, const fst_sweep_record *record)
 {
     const fst_run_result *r = &record->result;
-    binding b = {insert, 1, seed};
+    binding b = {insert, 1, seed, SQLITE_OK};
     char name[64];
     bind_integer(&b, record->point);
     for (int i = 0; i < fst_grid_axis_count(grid); ++i) {
@@ -207,7 +209,7 @@ void fst_sweep_bind(sqlite3_stmt *insert, const fst_grid *grid, uint64_t seed, c
     }
     if (has_own(grid)) {
         bind_own(&b, fst_grid_row_kind(grid), record);
-        return;
+        return b.code;
     }
     bind_text(&b, record->status == FST_OK ? "done" : fst_status_text(record->status));
     bind_integer(&b, record->carried);
@@ -232,6 +234,7 @@ void fst_sweep_bind(sqlite3_stmt *insert, const fst_grid *grid, uint64_t seed, c
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         bind_real(&b, record->status == FST_OK ? r->final_state[i] : NAN);
     (void)sqlite3_bind_int64(insert, b.place, (sqlite3_int64)b.sum);
+    return b.code;
 }
 
 /* ------------------------------------------------------------------ reading */

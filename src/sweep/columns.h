@@ -20,8 +20,8 @@ char *fst_sweep_insert_sql(const fst_grid *grid);
 char *fst_sweep_select_sql(void);
 char *fst_sweep_state_sql(const fst_grid *grid);
 
-/* Bind a record and its checksum, which begins with `seed`, to the inserting statement. */
-void fst_sweep_bind(sqlite3_stmt *insert, const fst_grid *grid, uint64_t seed, const fst_sweep_record *record);
+/* Bind a record and its checksum, which begins with `seed`, to the inserting statement; SQLite's code. */
+int fst_sweep_bind(sqlite3_stmt *insert, const fst_grid *grid, uint64_t seed, const fst_sweep_record *record);
 
 /* The place of a key among the columns of a row that is read; 0, the point's, where rows do not have it. */
 int fst_sweep_place(sqlite3_stmt *row, const char *key);

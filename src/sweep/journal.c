@@ -257,8 +257,8 @@ fst_status fst_journal_add(fst_journal *journal, const fst_sweep_record *record,
     const fst_status begun = fst_journal_begin(journal, error);
     if (begun != FST_OK)
         return begun;
-    fst_sweep_bind(journal->insert, journal->grid, journal->file.seed, record);
-    const int code = sqlite3_step(journal->insert);
+    const int bound = fst_sweep_bind(journal->insert, journal->grid, journal->file.seed, record);
+    const int code = bound == SQLITE_OK ? sqlite3_step(journal->insert) : bound;
     const fst_status status =
         code == SQLITE_DONE ? FST_OK : fst_database_fail(journal->file.database, journal->path, error);
     (void)sqlite3_reset(journal->insert);

@@ -43,11 +43,12 @@ static fst_status copy_rows(sqlite3 *database, const char *name, const fst_sweep
     if (status == FST_OK && (!sql || sqlite3_prepare_v2(database, sql, -1, &insert, NULL) != SQLITE_OK))
         status = fst_database_fail(database, name, error);
     while (status == FST_OK && (status = fst_sweep_rows_next(&rows, &more, error)) == FST_OK && more) {
-        for (int i = 0; i < count; ++i)
-            (void)sqlite3_bind_value(insert, i + 1, sqlite3_column_value(rows.row, i));
+        int code = SQLITE_OK;
+        for (int i = 0; i < count && code == SQLITE_OK; ++i)
+            code = sqlite3_bind_value(insert, i + 1, sqlite3_column_value(rows.row, i));
         (void)sqlite3_bind_int64(insert, count + 1,
                                  (sqlite3_int64)fst_sweep_row_checksum(rows.row, count, seed));
-        if (sqlite3_step(insert) != SQLITE_DONE)
+        if (code != SQLITE_OK || sqlite3_step(insert) != SQLITE_DONE)
             status = fst_database_fail(database, name, error);
         (void)sqlite3_reset(insert);
     }

@@ -24,7 +24,9 @@ import subprocess
 import sys
 import tempfile
 
+import films
 import section
+import tracks
 
 SOURCE = os.path.abspath(os.environ.get("SOURCE_DIR", os.path.join(os.path.dirname(__file__), "..", "..")))
 BUILD = os.path.abspath(os.environ.get("BUILD_DIR", os.path.join(SOURCE, "build")))
@@ -33,6 +35,7 @@ PRELOADED = os.path.join(BUILD, "tests", "faults.so")
 
 SHORT = ("--set", "run.periods=12", "--set", "run.discard=2", "--set", "run.samples=16")
 OTHER = ("--set", "run.periods=6", "--set", "run.discard=2", "--set", "run.samples=16")
+MAP = ("--radius", "20mm", "--spacing", "4mm", "--set", "magnet.b0=10mT")
 PLACES = 40  # where a disk is full: so many places over the file, and its ends
 
 
@@ -49,6 +52,19 @@ def done(*words):
     return result
 
 
+def give_measured(folder, film):
+    """A track and points for a fit, and a film where it is wanted and ffmpeg is there."""
+    with open(os.path.join(folder, "track.csv"), "w", encoding="ascii") as out:
+        out.write(tracks.own(tracks.places(seconds=2), unit="mm"))
+    with open(os.path.join(folder, "points.csv"), "w", encoding="ascii") as out:
+        out.write("frequency [Hz],mean_r [mm],mean_r_error [mm],bead_frequency [Hz],bead_frequency_error [Hz]\n"
+                  "11,18.03,0.05,-3.283,0.05\n14,20.275,0.05,-2.832,0.05\n")
+    if film and films.can_film():
+        csv = os.path.join(folder, "film.csv")
+        done("run", "--set", "run.periods=16", "--set", "run.discard=0", "--set", "run.samples=64", "--csv", csv)
+        done("movie", csv, "--camera", *films.SMALL, "--to", "0.5", "-o", os.path.join(folder, "a.mp4"))
+
+
 class Command:
     """A command that writes `out` (a file, or a folder of frames) from files in the folder `given`."""
 
@@ -61,7 +77,10 @@ class Command:
 
 def commands(given, out):
     """Every kind of output, and what each command reads."""
-    csv, h5, branch, sweep, scene = (os.path.join(given, n) for n in ("t.csv", "t.h5", "b.json", "s.db", "scene.yaml"))
+    csv, h5, branch, sweep, scene, track, points, beads, film_of = (os.path.join(given, n) for n in (
+        "t.csv", "t.h5", "b.json", "s.db", "scene.yaml", "track.csv", "points.csv", "w.h5", "a.mp4"))
+    walker, water, floater = (os.path.join(SOURCE, "examples", n) for n in (
+        "beads/walker.yaml", "worlds/water.yaml", "worlds/levitation.yaml"))
     to = lambda name: os.path.join(out, name)
     film = ("--to", "1", "--fps", "4", "--size", "160x160")
     return [
@@ -90,7 +109,25 @@ def commands(given, out):
                                                                                   to("m.mp4")], helper="ffmpeg", reads=csv),
         Command("movie -o .gif", ["movie", csv, *film, "-o", to("m.gif")], "m.gif", ["movie", csv, *film, "--turn", "2", "-o",
                                                                                   to("m.gif")], helper="ffmpeg"),
+        Command("movie --camera", ["movie", csv, *film, "--camera", "-o", to("c.mp4")], "c.mp4",
+                ["movie", csv, *film, "-o", to("c.mp4")], helper="ffmpeg"),
         Command("movie -o FOLDER", ["movie", csv, *film, "-o", to("frames")], "frames"),
+        Command("run of beads -o .h5", ["run", walker, *SHORT, "-o", to("w.h5")], "w.h5",
+                ["run", walker, *OTHER, "-o", to("w.h5")]),
+        Command("run of a world --csv", ["run", water, *SHORT, "--csv", to("u.csv")], "u.csv",
+                ["run", water, *OTHER, "--csv", to("u.csv")]),
+        Command("sweep --levitation", ["sweep", floater, "--levitation", "--threads", "1", "--over",
+                                       "drive.frequency=199:200:2", "-o", to("l.db")], "l.db"),
+        Command("field --csv", ["field", *MAP, "--csv", to("map.csv")], "map.csv", ["init", to("map.csv")]),
+        Command("measure -o", ["measure", track, "-o", to("points.csv")], "points.csv", ["init", to("points.csv")],
+                reads=track),
+        Command("measure --figure", ["measure", track, "--figure", to("m.svg")], "m.svg", ["field", "-o", to("m.svg")],
+                helper="gnuplot", reads=track),
+        Command("fit -o .svg", ["fit", points, "--free", "model.kappa", "-o", to("fit.svg")], "fit.svg",
+                ["field", "-o", to("fit.svg")], helper="gnuplot", reads=points),
+        Command("plot of beads -o .svg", ["plot", beads, "-o", to("g.svg")], "g.svg",
+                ["plot", beads, "--kind", "groups", "-o", to("g.svg")], helper="gnuplot", reads=beads),
+        Command("track -o", ["track", film_of, "-o", to("track.csv")], "track.csv", ["init", to("track.csv")]),
     ]
 
 
@@ -104,11 +141,12 @@ class Case:
 
 
 class Campaign:
-    def __init__(self, folder):
+    def __init__(self, folder, chosen):
         self.folder = folder
         self.given, self.out = os.path.join(folder, "given"), os.path.join(folder, "out")
         self.fired = os.path.join(folder, "fired")
         self.wanted, self.old = {}, {}  # contents of the finished and of the old files
+        self.told = {}                  # what is said on standard error when nothing fails
         self.tally, self.violations = {}, []
         os.mkdir(self.given)
         done("init", os.path.join(self.given, "scene.yaml"))
@@ -117,7 +155,9 @@ class Campaign:
         done("branch", "--kind", "locked", "--over", "drive.omega=0.2:0.201", "-o",
              os.path.join(self.given, "b.json"))
         done("sweep", *OTHER, "--over", "model.kappa=1:2:3", "-o", os.path.join(self.given, "s.db"))
-        self.commands = commands(self.given, self.out)
+        done("run", os.path.join(SOURCE, "examples", "beads", "walker.yaml"), *OTHER, "-o", os.path.join(self.given, "w.h5"))
+        self.commands = [c for c in commands(self.given, self.out) if not chosen or c.name in chosen]
+        give_measured(self.given, any(c.name == "track -o" for c in self.commands))
 
     # ------------------------------------------------------------------ contents
 
@@ -166,6 +206,7 @@ class Campaign:
             counts[program] = {k: max(int(line.split(k + "=")[1].split()[0]) for line in text.splitlines())
                                for k in ("write", "fsync", "rename", "close", "open", "truncate", "bytes")} if text else {}
         self.wanted[command.name] = self.content(command)
+        self.told[command.name] = result.stderr.decode(errors="replace").splitlines()
         reads = 0
         if command.reads:
             self.begin(command)
@@ -241,7 +282,7 @@ class Campaign:
             problem = "failed without a reason"
         elif status == 0 and content != self.wanted[command.name]:
             problem = "status 0, but the file is not whole"
-        elif status == 1 and not is_named(words, command, self.out, self.given):
+        elif status == 1 and not is_named(words, self.told[command.name], command, self.out, self.given):
             problem = "the sentence names nothing"
         elif status == 1 and not self.is_kept(command, content, old, words):
             problem = "the old file is not as it was"
@@ -415,9 +456,9 @@ def some(count, most=24):
     return sorted({1, 2, 3, count - 2, count - 1, count, *(1 + (count - 1) * i // (most - 1) for i in range(most))})
 
 
-def is_named(words, command, out, given):
-    """Whether the message is one sentence that names a file."""
-    lines = [line for line in words.strip().splitlines() if not line.startswith("wrote ")]
+def is_named(words, told, command, out, given):
+    """Whether the message is one sentence that names a file, besides what is told anyway."""
+    lines = [line for line in words.strip().splitlines() if line not in told and not line.startswith("wrote ")]
     name = os.path.join(out, command.out.rsplit(".", 1)[0])
     return len(lines) == 1 and lines[0].startswith("festoon: ") and (name in lines[0] or given in lines[0] or
                                                                      out in lines[0])
@@ -462,9 +503,7 @@ def main():
             print(f"skipped: no {tool}")
             return 77
     with tempfile.TemporaryDirectory(prefix="festoon-faults-") as folder:
-        campaign = Campaign(folder)
-        if given.command:
-            campaign.commands = [c for c in campaign.commands if c.name in given.command]
+        campaign = Campaign(folder, given.command)
         cases = [case for command in campaign.commands for case in campaign.cases(command)]
         if len(cases) > given.count:
             cases = random.Random(1).sample(cases, int(given.count))

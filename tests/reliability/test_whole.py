@@ -1,5 +1,5 @@
-"""A sample of tests/reliability/whole.py: each command at 8 places or fewer, the fewer the longer it takes
-(test_whole_long.py: 40).
+"""A sample of tests/reliability/whole.py: 60 allocations over all commands, and a write and a read of each
+(test_whole_long.py: each command at 40 places).
 
 tests: host/printed.c io/json_writer.c sweep/export.c cli/program.c cli/terminal.c
 labels: slow"""
@@ -9,4 +9,4 @@ import subprocess
 import sys
 
 SCRIPT = os.path.join(os.environ["SOURCE_DIR"], "tests", "reliability", "whole.py")
-sys.exit(subprocess.run([sys.executable, "-B", SCRIPT, "--places", "8"], stdin=subprocess.DEVNULL).returncode)
+sys.exit(subprocess.run([sys.executable, "-B", SCRIPT, "--few", "60"], stdin=subprocess.DEVNULL).returncode)

@@ -1,4 +1,4 @@
-"""A sample of tests/reliability/whole.py: each command at 40 places or fewer, the fewer the longer it takes.
+"""A sample of tests/reliability/whole.py: every command and format at 40 places.
 
 tests: host/printed.c io/json_writer.c sweep/export.c cli/program.c cli/terminal.c
 labels: long"""

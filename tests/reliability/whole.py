@@ -29,14 +29,11 @@ import sys
 import tempfile
 import threading
 
-import films
 import hdf5_reader
 import section
-import tracks
-from faults import FESTOON, PRELOADED, SOURCE, read, some
+from faults import FESTOON, MAP, PRELOADED, SOURCE, give_measured, read, some
 
 SHORT = ("--set", "run.periods=6", "--set", "run.discard=2", "--set", "run.samples=16")
-MAP = ("--csv", "map.csv", "--radius", "20mm", "--spacing", "4mm", "--set", "magnet.b0=10mT")
 BROKE_DOWN = "festoon: a library that this command uses broke down, mostly because memory ran out"
 TWO_AT_ONCE = 2
 
@@ -79,7 +76,7 @@ def of_scenes():
         "run -o .h5": Command(["run", *SHORT, "-o", "t.h5"]),
         "field --at": Command(["field", "--at", "1,0.5"]),
         "field --at --json": Command(["field", "--at", "1,0.5", "--json", "--units", "si"]),
-        "field --csv": Command(["field", *MAP]),
+        "field --csv": Command(["field", *MAP, "--csv", "map.csv"]),
         "field of a map": Command(["field", "--at", "0.1,0.1", "--json", "--set", "magnet.shape=grid", "--set",
                                    "magnet.file=../given/map.csv"]),
         "field of coils": Command(["field", "../given/worlds/coils.yaml", "--at", "0,0", "--time", "125ms", "--json"]),
@@ -238,14 +235,16 @@ class Campaign:
         self.commands, self.tally, self.violations = {}, {}, []
         self.slots = queue.SimpleQueue()
         os.mkdir(place(self.root, "given"))
-        make_given(place(self.root, "given"))
+        wanted = {name: command for name, command in commands().items() if
+                  (name in chosen if chosen else not few or not command.slow) and
+                  (not command.needs or shutil.which(command.needs))}
+        make_given(place(self.root, "given"), any(name.startswith("track") for name in wanted))
         for number in range(TWO_AT_ONCE):
             os.mkdir(place(self.root, str(number)))
             self.slots.put(str(number))
-        for name, command in commands().items():
-            if (name in chosen if chosen else not few or not command.slow) and (not command.needs or shutil.which(command.needs)):
-                command.name = name
-                self.learn(command)
+        for name, command in wanted.items():
+            command.name = name
+            self.learn(command)
 
     def perform(self, command, fault=None, again=False):
         """Runs a command in a slot that is free, with a fault (call, error, number) or none.  Returns its status, what it
@@ -360,7 +359,7 @@ class Campaign:
                     print(self.violations[-1], flush=True)
 
 
-def make_given(folder):
+def make_given(folder, film):
     """The files that the commands read."""
     def do(*words):
         done = subprocess.run([FESTOON, *words], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, check=False)
@@ -381,15 +380,8 @@ def make_given(folder):
     shutil.copy(place(folder, "s.db"), place(folder, "part.db"))
     with contextlib.closing(sqlite3.connect(place(folder, "part.db"))) as base, base:
         base.execute("DELETE FROM rows WHERE point = 1")
-    do("field", *MAP)
-    do("run", *SHORT, "--set", "run.periods=16", "--set", "run.discard=0", "--set", "run.samples=64", "--csv", "film.csv")
-    if films.can_film():
-        do("movie", "film.csv", "--camera", *films.SMALL, "--to", "0.5", "-o", "a.mp4")
-    with open(place(folder, "track.csv"), "w", encoding="ascii") as out:
-        out.write(tracks.own(tracks.places(seconds=2), unit="mm"))
-    with open(place(folder, "points.csv"), "w", encoding="ascii") as out:
-        out.write("frequency [Hz],mean_r [mm],mean_r_error [mm],bead_frequency [Hz],bead_frequency_error [Hz]\n"
-                  "11,18.03,0.05,-3.283,0.05\n14,20.275,0.05,-2.832,0.05\n")
+    do("field", *MAP, "--csv", "map.csv")
+    give_measured(folder, film)
 
 
 HEAD = ["command", "cases", "the same output", "a sentence", "a library broke down", "broken promises"]
