@@ -61,9 +61,33 @@ static int next_task(void *user, fst_row_job *row)
     return more;
 }
 
+/* The work ends with an error, the first one; the lock is held. */
+static void give_up(fst_workers *w, const fst_error *error)
+{
+    if (w->status == FST_OK) {
+        w->status = error->code;
+        w->error = *error;
+        w->stopping = 1;
+        pthread_cond_broadcast(&w->task_came);
+    }
+}
+
+/* What befell the machine is no row: the same command may fill it in another time. */
+static int is_of_the_machine(fst_status status)
+{
+    return status == FST_NO_MEMORY || status == FST_UNAVAILABLE;
+}
+
 static void hand_over(fst_workers *w, const fst_sweep_record *record)
 {
+    fst_error error;
     pthread_mutex_lock(&w->lock);
+    if (is_of_the_machine(record->status)) {
+        (void)fst_fail(&error, record->status, "", "%s", record->result.reason);
+        give_up(w, &error);
+        pthread_mutex_unlock(&w->lock);
+        return;
+    }
     while (w->row_count == FST_WORKERS_ROWS && !w->abandoned)
         pthread_cond_wait(&w->room_came, &w->lock);
     if (!w->abandoned)
@@ -188,12 +212,8 @@ static void *labour(void *user)
         status = kind == FST_ROWS_OF_RUNS ? fst_rows_with_images(&work, &images, &error)
                                           : own_rows(w, kind, &progress, &error);
     pthread_mutex_lock(&w->lock);
-    if (status != FST_OK && status != FST_INTERRUPTED && w->status == FST_OK) {
-        w->status = status;
-        w->error = error;
-        w->stopping = 1;
-        pthread_cond_broadcast(&w->task_came);
-    }
+    if (status != FST_OK && status != FST_INTERRUPTED)
+        give_up(w, &error);
     w->busy -= 1;
     pthread_cond_signal(&w->row_came);
     pthread_mutex_unlock(&w->lock);

@@ -6,7 +6,7 @@
 Every command, with each of its formats, runs undisturbed, and then again and again with a preloaded library: its n-th
 allocation fails; its n-th write fails because the disk is full or broken; its n-th read
 fails.  n goes through all numbers up to N, and through N of them spread evenly where there are more (2000 unless told;
-a tenth, but 40 at least, of commands that take long).
+a tenth, but 40 at least, of commands that take long), and of a sweep's allocations through the last N.
 --few N: N allocations over all commands together, and a write and a read of each; what takes long is left out.
 The promise holds when a command ends with status 0, the same outputs to the last byte and the same warnings, or with status 1, one sentence, and of each output all or nothing; never with a crash, another status, or a file
 left over.  Status 1: a promise was broken.
@@ -290,7 +290,9 @@ class Campaign:
         """The faults to be tried: (row of the report, call, error, number)."""
         places = min(places, max(40, places // 10)) if command.slow else places
         few = max(4, places // 4)
-        for number in some(command.counts["memory"], places):
+        memory = command.counts["memory"]
+        last = range(max(1, memory - places), memory + 1) if "sweep" in command.words else ()  # where rows are made
+        for number in sorted({*some(memory, places), *last}):
             yield ("an allocation fails", "memory", 0, number)
         for number in some(command.counts["write"], few):
             yield ("a write fails: disk full", "write", errno.ENOSPC, number)
