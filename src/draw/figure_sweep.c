@@ -53,7 +53,8 @@ fst_status fst_figure_sweep(const char *path, const char *const *keys, int count
     fst_status status = fst_sweep_read_grid(path, &grid, error);
     if (status != FST_OK)
         return status;
-    if (units == FST_SHOWN_AS_GIVEN)
+    const int asked = units != FST_SHOWN_AS_GIVEN;
+    if (!asked)
         units = fst_sweep_units(grid);
     status = axes_of(grid, path, units, axes, &varied, error);
     if (status == FST_OK && varied == 2 && count > 1)
@@ -65,8 +66,11 @@ fst_status fst_figure_sweep(const char *path, const char *const *keys, int count
     const int usual_count = choose_keys(fst_grid_row_kind(grid), varied, usual);
     const char *const *shown = count > 0 ? keys : usual;
     const int shown_count = count > 0 ? count : usual_count;
-    for (int i = 0; i < shown_count && status == FST_OK; ++i)
+    for (int i = 0; i < shown_count && status == FST_OK; ++i) {
         status = fst_sweep_quantity_of(grid, shown[i], units, &quantities[i], error);
+        if (status == FST_BAD_INPUT && !asked) /* the units of the axis cannot show it */
+            status = fst_sweep_quantity_of(grid, shown[i], FST_SHOWN_SCALED, &quantities[i], error);
+    }
     fst_grid_free(grid);
     if (status != FST_OK)
         return status;

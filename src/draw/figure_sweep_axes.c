@@ -6,6 +6,7 @@
 #include "base/error.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -29,29 +30,36 @@ fst_shown_units fst_sweep_units(const fst_grid *grid)
     return fst_units_over(keys, count);
 }
 
+/* The parameters that are units themselves, or make one. */
+static const struct {
+    const char *key;
+    size_t scale;
+} unit_keys[] = {
+    {"friction.gamma", offsetof(fst_scales, time)}, {"magnet.half_length", offsetof(fst_scales, length)},
+    {"bead.mass", offsetof(fst_scales, mass)},      {"magnet.b0", offsetof(fst_scales, field)},
+    {"bead.moment", offsetof(fst_scales, field)},   {"model.kappa", offsetof(fst_scales, field)}};
+enum { UNIT_KEYS = sizeof unit_keys / sizeof *unit_keys };
+
 /* The scales of the points; a scale that differs from point to point is NAN. */
 static fst_scales scales_of(const fst_grid *grid)
 {
     fst_scales scales = fst_scales_of(fst_grid_base(grid));
-    if (varies(grid, "magnet.half_length"))
-        scales.length = NAN;
-    if (varies(grid, "friction.gamma"))
-        scales.time = NAN;
-    if (varies(grid, "bead.mass"))
-        scales.mass = NAN;
-    if (varies(grid, "magnet.b0") || varies(grid, "bead.moment") || varies(grid, "model.kappa"))
-        scales.field = NAN;
+    for (int i = 0; i < UNIT_KEYS; ++i)
+        if (varies(grid, unit_keys[i].key))
+            *(double *)((char *)&scales + unit_keys[i].scale) = NAN;
     return scales;
 }
 
 /* Refuse units that would need a scale which is not the same at all points. */
 static fst_status check_scale(const fst_grid *grid, const char *what, int same, fst_error *error)
 {
-    const char *key = varies(grid, "friction.gamma") ? "friction.gamma" : "magnet.half_length";
+    int i = 0;
+    while (i < UNIT_KEYS - 1 && !varies(grid, unit_keys[i].key))
+        ++i;
     return same ? FST_OK
                 : fst_fail(error, FST_BAD_INPUT, "fst_figure_sweep.units",
                            "the sweep varies %s, a unit itself, so %s is shown in the units it was made with",
-                           key, what);
+                           unit_keys[i].key, what);
 }
 
 /* Whether listed values, which rise, are spaced by a factor rather than by a difference: whose steps are more

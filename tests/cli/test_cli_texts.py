@@ -60,6 +60,12 @@ class ForPeople(Case):
         text = self.good("field", "--at", "10mm,5mm", "--units", "lab", "--height", "20mm", *known)
         for part in ("20 mm over the magnet's mid-plane", "(mT)", "(mT/mm)", "B0 = 40 mT"):
             self.assertIn(part, text)
+        si = self.json("field", "--at", "10mm,5mm", "--units", "si", "--height", "20mm", *known)
+        rows = [[float(word) for word in re.findall(r"-?[\d.]+(?:e-?\d+)?", line[4:])] for line in text.splitlines()
+                if re.match("[XYZ] ", line)]
+        for row, field, slopes in zip(rows, si["b_tesla"], si["grad_tesla_per_m"], strict=True):
+            for told, value in zip(row, [1e3 * field, *slopes], strict=True):  # 1 mT/mm is 1 T/m
+                self.assertAlmostEqual(told / value, 1, 4)
         unknown = self.json("field", "--at", "0,0", "--units", "si")
         self.assertEqual([unknown["b_tesla"], unknown["grad_tesla_per_m"]], [[None] * 3, [[None] * 3] * 3])
         self.assertIn("give bead.moment or magnet.b0", self.good("field", "--at", "0,0", "--units", "si"))

@@ -261,23 +261,34 @@ class Branches(Case):
 
         self.assertLess(worst(drawn), 0.25 * worst(few))
 
+    def pieces(self, name, observable):
+        """The pieces of the first curve, each a list of points."""
+        self.plot(name, "--observable", observable)
+        text = (self.folder / "f.dat").read_text(encoding="utf-8").split("\n\n\n")[0]
+        pieces = [[[float(word) for word in line.split()] for line in piece.split("\n") if line and line[0] != "#"]
+                  for piece in text.split("\n\n")]
+        return [piece for piece in pieces if piece and not math.isnan(piece[0][0])]
+
     def test_a_jump_is_not_joined(self):
         """Where the orbit passes the axis <alpha'> jumps by the drive's 8.9 Hz: both pieces reach the place, and no
         line leads from one to the other."""
         good("branch", "--kind", "counter", "--over", "drive.frequency=8Hz:10Hz", "-o", self.folder / "jump.json")
         (crossing,) = [s for s in json.loads((self.folder / "jump.json").read_text())["specials"]
                        if s["type"] == "origin-crossing"]
-        self.plot("jump.json", "--observable", "mean_alpha_dot")
-        text = (self.folder / "f.dat").read_text(encoding="utf-8").split("\n\n\n")[0]
-        pieces = [[[float(word) for word in line.split()] for line in piece.split("\n") if line and line[0] != "#"]
-                  for piece in text.split("\n\n")]
+        pieces = self.pieces("jump.json", "mean_alpha_dot")
         ends = []
-        for piece in filter(None, pieces):
+        for piece in pieces:
             self.assertLess(max(abs(b[1] - a[1]) for a, b in zip(piece, piece[1:])), 0.5)
             ends += [y for x, y in (piece[0], piece[-1]) if abs(x - crossing["value"]) < 1e-6]
         self.assertEqual(len(ends), 2)
         self.assertAlmostEqual(max(ends), crossing["value"], 5)
         self.assertAlmostEqual(max(ends) - min(ends), GAMMA / crossing["at"]["period"], 5)
+        document = json.loads((self.folder / "jump.json").read_text())
+        for point in document["points"]:  # as if N were known on both sides
+            point["festoons"] = 5.0 + point["turns"]
+        (self.folder / "both.json").write_text(json.dumps(document))
+        steps = [abs(b[1] - a[1]) for piece in self.pieces("both.json", "festoons") for a, b in zip(piece, piece[1:])]
+        self.assertLess(max(steps), 0.5)
 
     def test_all_curves_stay_within_their_points(self):
         """No radius is negative: <r> of every curve, bent as it may be, lies among the points."""
@@ -289,6 +300,11 @@ class Branches(Case):
         self.assertGreater(min(drawn), 0)
         self.assertGreater(min(drawn), 0.9 * min(known))
         self.assertLess(max(drawn), 1.01 * max(known))
+        # Phi tells a branch from its image under S2: every branch is drawn.
+        _, _, blocks = self.plot("all.json", "--observable", "phi_deg")
+        drawn = [point for name, block in blocks.items() if name.startswith("panel") for point in block]
+        for p in {p["branch"]: p for p in found["points"] if p["phi_deg"] is not None}.values():
+            self.assertLess(min(abs(x - p["value"]) + abs((y - p["phi_deg"] + 180) % 360 - 180) for x, y in drawn), 1e-3)
 
     def test_an_incomplete_branch_says_so(self):
         document = json.loads((self.folder / "counter.json").read_text())
@@ -319,6 +335,9 @@ class Branches(Case):
     def test_scales_that_are_not_known(self):
         with open(self.folder / "counter.json", encoding="utf-8") as file:
             document = json.load(file)
+        document["scene"]["magnet.half_length"] *= -1
+        (self.folder / "bare.json").write_text(json.dumps(document), encoding="utf-8")
+        self.refused("has no scene", "plot", self.folder / "bare.json", "--units", "lab")
         del document["scene"]
         (self.folder / "bare.json").write_text(json.dumps(document), encoding="utf-8")
         self.refused("has no scene", "plot", self.folder / "bare.json", "--units", "lab")
@@ -328,8 +347,9 @@ class Branches(Case):
 class LaboratoryFiles(Case):
     def test_a_cameras_samples(self):
         """Rows are 1/240 s apart, and their numbers are those of the run in other units."""
+        rate = 250  # of friction, 1/s
         good("run", "--set", "run.periods=6", "--set", "run.discard=2", "--csv", self.folder / "lab.csv", "--units", "lab",
-             "--fps", "240", "-o", self.folder / "scaled.csv")
+             "--fps", "240", "-o", self.folder / "scaled.csv", "--set", f"friction.gamma={rate}")
         lab, units = read_csv(self.folder / "lab.csv")
         self.assertEqual([units[name] for name in ("t", "x", "vx", "w_z", "load", "energy", "drive_power", "n_x", "Phi")],
                          ["s", "mm", "mm/s", "Hz", "mN", "uJ", "mW", "1", "rad"])
@@ -341,7 +361,7 @@ class LaboratoryFiles(Case):
         # Two files of one command, each in units of its own.
         scaled, units = read_csv(self.folder / "scaled.csv")
         self.assertEqual([units[name] for name in ("t", "x", "w_z")], ["1/gamma", "l", "gamma"])
-        for name, factor in (("t", 1 / GAMMA), ("x", 1e3 * LENGTH), ("w_z", GAMMA / (2 * math.pi))):
+        for name, factor in (("t", 1 / rate), ("x", 1e3 * LENGTH), ("w_z", rate / (2 * math.pi))):
             self.assertLess(max(abs(one - factor * other) for one, other in zip(lab[name], scaled[name])), 1e-9)
         self.assertEqual(len(lab["t"]), 1 + math.floor(6 / 10.7 * 240))
 

@@ -153,6 +153,11 @@ class Maps(Figures):
             self.assertIn("friction.gamma", self.refused("plot", self.path("g.db"), *options, "-o", self.path("f.svg")))
         self.good("plot", self.path("g.db"), "--units", "lab", "--key", "mean_r", "-o", self.path("f.svg"))
         self.refused("plot", self.path("g.db"), "--units", "imperial", "-o", self.path("f.svg"))
+        # Where an axis is a unit, powers have none; nobody asked for one: they stay scaled.
+        self.sweep("h.db", "bead.mass=0.4g,0.5g")
+        power = ("--key", "mean_drive_power")
+        self.assertIn("varies bead.mass", self.refused("plot", self.path("h.db"), *power, "--units", "lab", "-o", self.path("f.svg")))
+        self.assertIn("γ³", self.plot("h.db", *power)[0])
         self.sweep("one.db", "drive.frequency=10,10,10")
         self.plot("one.db")  # a range of one value
         for word, told in (("lap", "the nearest is lab"), ("SI", "the nearest is si"), ("", "choose one of given, lab")):

@@ -287,6 +287,26 @@ static char *with_integer(const char *text, const char *after, const char *key, 
     return changed(text, after, old, made);
 }
 
+/* A locked state has nine eigenvalues: one more or less is refused. */
+static void eigenvalues_are_nine(void **state)
+{
+    (void)state;
+    const fst_params params = fst_default_params();
+    fst_branch b = made_up(1), read;
+    fst_error error;
+    char *text = fst_branch_json(&params, &b);
+    char *list = strstr(text, "\"eigenvalues\": [");
+    assert_non_null(list);
+    char *from = strchr(list, '[') + 1, *next = strstr(from, "],") + 2;
+    memmove(from, next, strlen(next) + 1);
+    put_file(text);
+    assert_int_equal(fst_branch_read(PATH, &read, &error), FST_BAD_INPUT);
+    assert_non_null(strstr(error.sentence, "9 eigenvalues"));
+    free(text);
+    fst_branch_free(&b);
+    (void)remove(PATH);
+}
+
 /* Every integer takes the borders of its range, and nothing beyond: the branches are numbered from 0 to 4. */
 static void integers_end_at_their_borders(void **state)
 {
@@ -327,10 +347,9 @@ static void integers_end_at_their_borders(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_member_comes_back),
-        cmocka_unit_test(real_branches_come_back),
-        cmocka_unit_test(other_members_are_refused),
-        cmocka_unit_test(integers_end_at_their_borders),
+        cmocka_unit_test(every_member_comes_back),   cmocka_unit_test(real_branches_come_back),
+        cmocka_unit_test(other_members_are_refused), cmocka_unit_test(integers_end_at_their_borders),
+        cmocka_unit_test(eigenvalues_are_nine),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -238,6 +238,10 @@ static void test_exposure(void **state)
     m = measured(&motion, &film, motion.drive, film.exposure, &track);
     assert_as(&m, &motion, film.scale);
     fst_track_free(&track);
+    /* An exposure that leaves less than a third of the oscillation leaves no number of it. */
+    m = measured(&motion, &film, motion.drive, 0.8 / m.radial_frequency_hz, &track);
+    assert_true(isnan(m.std_r) && isnan(m.std_r_error) && isnan(m.mean_r_error) && isfinite(m.mean_r));
+    fst_track_free(&track);
     made_motion_free(&motion);
 }
 

@@ -57,6 +57,22 @@ class Points(Program):
             self.assertAlmostEqual(float(row["std_r_error [mm]"]), found["std_r_error"], places=9)
             self.assertAlmostEqual(float(row["bead_frequency [Hz]"]), -tracks.BEAD, delta=0.01)
 
+    def test_each_track_its_own(self):
+        """Of tracks that do not tell the drive the table has what was given, each its own; a pixel is worth what --scale
+        says."""
+        drives = (12.8, 14.0)
+        names = [self.write(f"{f}.csv", tracks.own(tracks.places(drive=f, swing=0), unit="mm")) for f in drives]
+        out = self.path("points.csv")
+        self.festoon("measure", *names, "--drive", "12.8Hz,14Hz", "-o", out)
+        with open(out, encoding="utf-8") as table:
+            for row, drive in zip(csv.DictReader(table), drives, strict=True):
+                self.assertAlmostEqual(float(row["frequency [Hz]"]), drive, 12)
+        pixels = self.write("px.csv", tracks.own(tracks.places()))
+        plain, scaled = (json.loads(self.festoon("measure", pixels, "--json", *more).stdout)
+                         for more in ((), ("--scale", "2.5px")))
+        self.assertEqual((plain["length_unit"], scaled["length_unit"]), ("px", "px"))
+        self.assertAlmostEqual(scaled["mean_r"] / plain["mean_r"], 2.5, 6)
+
     def test_refusals(self):
         pixels = self.write("px.csv", tracks.own(tracks.places()))
         out = self.path("points.csv")

@@ -19,6 +19,8 @@ typedef struct stored {
 
 static fst_checkpoints *images;
 static sqlite3 *database;
+static fst_journal *journal;
+static uint64_t identity_hash;
 
 static stored read_stored(int64_t point)
 {
@@ -85,6 +87,19 @@ static void test_each_byte(void **unused)
     assert_true(is_sound(1));
 }
 
+/* The same bytes beside the same point of another sweep. */
+static void test_another_sweep(void **unused)
+{
+    (void)unused;
+    fst_checkpoints *own = images;
+    assert_int_equal(fst_checkpoints_open(journal, identity_hash ^ 1U, &images, NULL), FST_OK);
+    assert_false(is_sound(1));
+    assert_int_equal(fst_checkpoints_damaged(images), 2);
+    fst_checkpoints_close(images);
+    images = own;
+    assert_true(is_sound(1));
+}
+
 static void test_exchange(void **unused)
 {
     (void)unused;
@@ -106,12 +121,12 @@ int main(void)
     const char *axes[] = {"model.kappa=1:2:8"};
     const fst_params params = fst_default_params();
     fst_grid *grid = NULL;
-    fst_journal *journal = NULL;
     fst_error error = {FST_OK, "", ""};
     fst_status status = fst_grid_new(&params, axes, 1, 1, &grid, &error);
     const fst_sweep_identity identity = {.grid = grid, .seed = 1};
+    identity_hash = status == FST_OK ? fst_journal_identity_hash(&identity) : 0;
     if (status != FST_OK || fst_journal_open(path, &identity, &journal, &error) != FST_OK ||
-        fst_checkpoints_open(journal, fst_journal_identity_hash(&identity), &images, &error) != FST_OK) {
+        fst_checkpoints_open(journal, identity_hash, &images, &error) != FST_OK) {
         (void)fprintf(stderr, "%s: %s\n", error.where, error.sentence);
         return 1;
     }
@@ -123,7 +138,8 @@ int main(void)
         if (fst_checkpoints_put(images, point, bytes, SIZE, &error) != FST_OK)
             return 1;
     }
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_each_byte), cmocka_unit_test(test_exchange)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_each_byte), cmocka_unit_test(test_another_sweep),
+                                       cmocka_unit_test(test_exchange)};
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     fst_checkpoints_close(images);
     (void)fst_journal_close(journal, NULL);
