@@ -58,30 +58,36 @@ def alone(number):
 for again in range(4):  # what is made once, at the first call, is there then
     whole = state()
 told = {{alone(number) for number in {{1 + whole[1] * i // {places} for i in range({places})}}}}
-assert told == {{whole[0], "no memory"}} or told == {{"no memory"}}, told - {{whole[0]}}
+assert "no memory" in told and told <= {{whole[0], "no memory"}}, told - {{whole[0]}}
 print("walked")
 """
 
 CALLS = {
-    "a bead": ("fs.Bead(frequency=9, friction__law='coulomb')", "result", 20),
-    "a run": ("bead.run()", "result.mean_r, result.regime", 20),
-    "a trajectory": ("bead.run(trajectory=True)", "result.trajectory.r.sum(), result.mean_r", 20),
-    "a dictionary": ("bead.run().to_dict()", "result", 10),
-    "a flow": ("bead.flow().advance(t=20.0)", "result[0], list(result[1])", 20),
-    "a sweep": ("fs.sweep(bead, frequency=[9, 10, 11], threads=2)", "list(result.mean_r), list(result.regime), result.errors", 40),
-    "an orbit": ("bead.orbit()", "result.mean_r, list(result.multipliers)", 10),
+    "a bead": ("fs.Bead(frequency=9, friction__law='coulomb')", "result", 6),
+    "a run": ("bead.run()", "result.mean_r, result.regime", 6),
+    "a trajectory": ("bead.run(trajectory=True)", "result.trajectory.r.sum(), result.mean_r", 6),
+    "a dictionary": ("bead.run().to_dict()", "result", 4),
+    "a flow": ("bead.flow().advance(t=20.0)", "result[0], list(result[1])", 6),
+    "a sweep": ("fs.sweep(bead, frequency=[9, 10, 11], threads=2)", "list(result.mean_r), list(result.regime), result.errors", 12),
+    "an orbit": ("bead.orbit()", "result.mean_r, list(result.multipliers)", 4),
     "locked states": ("bead.locked()", "str(result)", 2),
-    "a measurement": ("fs.measure(track)", "result.to_dict()", 30),
-    "a fit": ("fs.fit(points, free='model.kappa', bead=bead)", "result.to_dict()", 10),
+    "a measurement": ("fs.measure(track)", "result.to_dict()", 8),
+    "a fit": ("fs.fit(points, free='model.kappa', bead=bead)", "result.to_dict()", 4),
 }
 
 
-@pytest.mark.skipif(not PRELOADED.exists(), reason="a build with sanitizers has nothing to preload")
-@pytest.mark.parametrize("name", CALLS)
-def test_every_place(name, tmp_path):
+def walk(name, folder, times):
+    """Lets allocations fail at so many times the places of CALLS."""
+    if not PRELOADED.exists():
+        pytest.skip("a build with sanitizers has nothing to preload")
     call, shown, places = CALLS[name]
     env = {**os.environ, "PYTHONPATH": str(BUILD / "python"), "LD_PRELOAD": str(PRELOADED),
-           "FESTOON_FAULT": os.path.basename(sys.executable) + ":memory:0:0", "FESTOON_FAULT_UNDER": str(tmp_path)}
-    walk = WALK.format(call=call, shown=shown, places=places)
-    done = subprocess.run([sys.executable, "-B", "-c", walk], env=env, capture_output=True, text=True, check=False)
+           "FESTOON_FAULT": os.path.basename(sys.executable) + ":memory:0:0", "FESTOON_FAULT_UNDER": str(folder)}
+    script = WALK.format(call=call, shown=shown, places=places * times)
+    done = subprocess.run([sys.executable, "-B", "-c", script], env=env, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout) == (0, "walked\n"), done.stderr[-2000:]
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_some_places(name, tmp_path):
+    walk(name, tmp_path, 1)

@@ -326,7 +326,8 @@ class Campaign:
             problem = "status 0, but a warning is missing"
         elif status == 0 and outputs != command.wanted:
             differ = [name for name in {**outputs, **command.wanted} if outputs.get(name) != command.wanted.get(name)]
-            problem = f"status 0, but not the same: {', '.join(differ)}"
+            mended = differ == ["stdout"] and case[1] == "read" and "this database was damaged" in words
+            problem = None if mended else f"status 0, but not the same: {', '.join(differ)}"
         elif status == 1 and not fired:
             problem = "failed without a reason"
         elif status == 1 and ([line[:9] for line in lines].count("festoon: ") != 1 or lines[-1][:9] != "festoon: " or
