@@ -24,11 +24,12 @@
 #include "beads/impact.h"
 #include "beads/select.h"
 
-enum { MOST_CROWD = 1000 };
+enum { MOST_CROWD = 1000, MOST_GENTLE = 4 };
 static const double ARMED = 1e-11, SUNK = 1e-13, CROWDED = 1e-3, STILL = 1e-6, AT_ONCE = 1e-12,
                     JUST_BEGUN = 0.1;
 static const double STRAYS = 10.0,
-                    ALONG = 0.9; /* a slip this fast, in world->still, is along its push by so much */
+                    ALONG = 0.9;   /* a slip this fast, in world->still, is along its push by so much */
+static const double STALLED = 0.9; /* a slip stays as it is of which a step leaves so much */
 static const double FREE_WITHIN =
     3.0; /* a slip that begins may be faster than world->free_at by so many of it */
 
@@ -119,13 +120,17 @@ int beads_is_near_enough(const beads_flow *flow, int which, double value)
            value == value_of(flow, &flow->end, which, THIRD) && value > -FREE_WITHIN * flow->world.free_at;
 }
 
-/* Whether the slip of a contact is over at the end of the step. */
+/* Whether the slip of a contact is over at the end of the step: it is smaller than what anything feels, or, smaller than the
+ * tolerance, it stays as it is, because what pushes it has become as strong as its friction.  Steps that follow the slip
+ * would take no time then; it begins anew from rest. */
 static int is_over(const beads_flow *flow, int k)
 {
     const double *before = flow->start.slip[k], *after = flow->end.slip[k], still = flow->world.still;
-    const double size2 = beads_dot(after, after);
+    const double size2 = beads_dot(after, after), was2 = beads_dot(before, before);
+    const double slow = fmax(STRAYS * still, flow->rtol);
     return flow->modes.contact[k] == BEADS_PRESSING && flow->world.contact[k].mu > 0 &&
-           size2 <= still * still && size2 < beads_dot(before, before);
+           ((size2 <= still * still && size2 < was2) ||
+            (flow->paced && size2 <= slow * slow && size2 > STALLED * STALLED * was2));
 }
 
 /* Whether a slip that begins does not go where it is pushed, because that changed: it goes on by its own direction. */
@@ -342,6 +347,26 @@ static fst_status eject(beads_flow *flow, int bead, fst_error *error)
     return choose(flow, touching, error);
 }
 
+/* Contacts that closed without an impact had a gap and a rate that are as good as 0.  These go now, and the energy that
+ * goes with them is counted as of an impact; slips of others change by as little, and so may the state. */
+static int close_gently(beads_flow *flow, const int *touching, beads_modes before)
+{
+    for (int round = 0; round < MOST_GENTLE; ++round) {
+        int closes = 0;
+        for (int k = 0; k < flow->world.contacts; ++k)
+            closes = closes || (before.contact[k] == BEADS_OPEN && flow->modes.contact[k] != BEADS_OPEN);
+        if (!closes)
+            break;
+        const double energy = beads_energy_now(flow);
+        beads_project(&flow->world, &flow->modes, flow->step.y);
+        flow->impacts += energy - beads_energy_now(flow);
+        before = flow->modes;
+        if (!beads_select(&flow->world, flow->step.y, touching, &flow->modes))
+            return 0;
+    }
+    return 1;
+}
+
 /* Whether a contact that has just begun to graze wants more than its whole friction.  Then it neither grazes nor presses:
  * it opens, and others, which its friction held, change with it. */
 static int opens_with_others(const beads_flow *flow, int k)
@@ -363,7 +388,8 @@ static int go_over(beads_flow *flow, const int *touching, int k)
     for (int value = SECOND; value < VALUES; ++value)
         if (value_of(flow, &flow->start, k, value) < value_of(flow, &flow->start, k, ended))
             ended = value;
-    if (mode != BEADS_PRESSING || sqrt(beads_dot(flow->start.slip[k], flow->start.slip[k])) > flow->world.still)
+    const double slip2 = beads_dot(flow->start.slip[k], flow->start.slip[k]), still = flow->world.still;
+    if (mode != BEADS_PRESSING || (slip2 > still * still && flow->start.held[k] <= 0))
         then = next[mode][ended];
     if (has_strayed(flow, &flow->start, k))
         then = BEADS_PRESSING;
@@ -402,7 +428,7 @@ fst_status beads_happen(beads_flow *flow, int which, fst_error *error)
         found = beads_release(&flow->world, flow->step.y, touching, which, flow->start.held[which] > 0.5,
                               &flow->modes);
     }
-    if (!found)
+    if (!found || !close_gently(flow, touching, before))
         return no_state(flow, touching, error);
     note_changes(flow, &before);
     return check_only(flow, touching, error);

@@ -130,6 +130,29 @@ static void test_symmetries(void **unused)
     fst_model_free(model);
 }
 
+/* A walker whose pair slips and sticks, lifts and lands: energy is where the integrals say, and slips that friction can
+ * just not stop take no endless steps. */
+static void test_walker(void **unused)
+{
+    (void)unused;
+    const fst_params params = dry_params(30, 0.1);
+    fst_model *model = model_of(&params);
+    double state[BEADS_NUMBERS];
+    place_bead(params, model, 3, bead_of(state, 0));
+    place_bead(params, model, 40, bead_of(state, 1));
+    const beads_world world = with_friction(paper_beads(2, model, 0.0), 0.1, 0.1);
+    for (int i = 0; i < 2; ++i) {
+        beads_flow *flow = begin_beads(&world, state, i ? 1e-11 : 1e-13);
+        const double start = beads_energy_now(flow);
+        go_to(flow, 7 * 312.5 / 30);
+        assert_true(flow->counts[FST_BEAD_EVENT_STICK] > 50 && flow->counts[FST_BEAD_EVENT_TOUCH] > 10);
+        CHECK_CLOSE(beads_residual(flow, start), 0, i ? 1e-11 : 1e-12);
+        assert_true(flow->accepted < 60000);
+        free(flow);
+    }
+    fst_model_free(model);
+}
+
 /* Five beads fall together in space, collide, slip and stick: momentum and angular momentum stay, energy goes where it
  * is told, and neither a contact nor an impact gives any. */
 static void test_what_is_kept(void **unused)
@@ -499,11 +522,12 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_single),       cmocka_unit_test(test_far),
-        cmocka_unit_test(test_symmetries),   cmocka_unit_test(test_what_is_kept),
-        cmocka_unit_test(test_thrown_dimer), cmocka_unit_test(test_rolling_pair),
-        cmocka_unit_test(test_impact),       cmocka_unit_test(test_painleve),
-        cmocka_unit_test(test_regularised),  cmocka_unit_test(test_redundant),
-        cmocka_unit_test(test_runs),         cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_walker),       cmocka_unit_test(test_symmetries),
+        cmocka_unit_test(test_what_is_kept), cmocka_unit_test(test_thrown_dimer),
+        cmocka_unit_test(test_rolling_pair), cmocka_unit_test(test_impact),
+        cmocka_unit_test(test_painleve),     cmocka_unit_test(test_regularised),
+        cmocka_unit_test(test_redundant),    cmocka_unit_test(test_runs),
+        cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
