@@ -15,7 +15,7 @@ extern "C" {
 #endif
 
 /* Increased when the same beads give other numbers than before; a sweep goes on only under the same version. */
-#define FST_BEADS_RESULTS_VERSION 1
+#define FST_BEADS_RESULTS_VERSION 2
 
 enum { FST_BEAD_NUMBERS = 12, FST_BEAD_TOUCHES = 36, FST_BEADS_EVENTS = 1000 };
 
@@ -71,10 +71,12 @@ typedef struct fst_bead_touch {
         force; /* per mass of the first bead of the list, l gamma^2; of stepping: the mean over the last step */
 } fst_bead_touch;
 
-/* Where dry friction leaves no motion, or several (Painleve): contacts that touched then. */
+/* Where contacts leave no motion, or several (Painleve; dry friction alone), or events that do not end: those that touched
+ * then. */
 typedef struct fst_beads_paradox {
     double time; /* 1/gamma; NAN: there was none */
-    int motions; /* 0: no state of these contacts is consistent; 2: two are, with different accelerations */
+    int motions; /* 0: no state of these contacts is consistent; 2: two are, with different accelerations; 1: more than 1000
+                    impacts and releases follow each other within a thousandth of 1/gamma */
     int touch_count, touches[FST_BEAD_TOUCHES][2]; /* as in fst_bead_touch */
 } fst_beads_paradox;
 
@@ -163,8 +165,8 @@ FST_API fst_beads_options fst_default_beads_options(void);
 /* Simulate several beads.  Each is given by whole parameters, which differ in bead.* and start.*
  * alone; the means are those of the drive periods behind run.discard.  impact.restitution counts under every
  * law, 0 unless given; friction is viscous, coulomb or none, beads are hard magnets, and the magnet is known at any
- * height (lines, parts).  FST_BAD_INPUT: it is not so, or beads overlap; FST_NO_CONVERGENCE: contacts have no
- * consistent state, or impacts do not end.  After a failure the result is empty. */
+ * height (lines, parts).  FST_BAD_INPUT: it is not so, or beads overlap; Where contacts have no consistent state or
+ * impacts do not end the result is that of the time till then, undecided.  After a failure the result is empty. */
 FST_API fst_status fst_beads_run(const fst_params *beads, int count, const fst_beads_options *options,
                                  fst_beads_result *result, fst_error *error);
 

@@ -221,7 +221,7 @@ static void note_changes(beads_flow *flow, const beads_modes *before)
     }
 }
 
-/* Dry friction leaves so many motions. */
+/* The contacts leave so many motions; one: it does not come on. */
 static void note_paradox(beads_flow *flow, int motions, const int *touching)
 {
     fst_beads_paradox *paradox = &flow->paradox;
@@ -240,8 +240,7 @@ static fst_status no_state(beads_flow *flow, const int *touching, fst_error *err
 {
     char where[64];
     (void)snprintf(where, sizeof where, "t = %.10g", flow->t.high);
-    if (beads_is_dry(&flow->world))
-        note_paradox(flow, 0, touching);
+    note_paradox(flow, 0, touching);
     return fst_fail(error, FST_NO_CONVERGENCE, where,
                     "no state of the contacts between beads and plate is consistent at %s; try another "
                     "friction between beads or start",
@@ -252,12 +251,16 @@ static fst_status no_state(beads_flow *flow, const int *touching, fst_error *err
 static fst_status count_crowd(beads_flow *flow, fst_error *error)
 {
     char where[64];
+    int closed[BEADS_CONTACTS];
     if (fabs(flow->t.high - flow->crowded_at) > CROWDED) {
         flow->crowded_at = flow->t.high;
         flow->crowd = 0;
     }
     if (++flow->crowd <= MOST_CROWD)
         return FST_OK;
+    for (int k = 0; k < flow->world.contacts; ++k)
+        closed[k] = flow->modes.contact[k] != BEADS_OPEN;
+    note_paradox(flow, 1, closed);
     (void)snprintf(where, sizeof where, "t = %.10g", flow->t.high);
     return fst_fail(error, FST_NO_CONVERGENCE, where,
                     "more than %d impacts and releases follow each other within no time at %s; try another "

@@ -234,9 +234,12 @@ static void tell_contacts(const beads_flow *flow, fst_beads_result *result)
     result->rejected = flow->rejected;
 }
 
-/* Dry friction left no motion, or several: the groups are those of that moment. */
+/* The contacts left no motion, or several, or one that does not come on: the groups are those of that moment. */
 static fst_status tell_paradox(run *r, fst_beads_result *result, fst_error *error)
 {
+    static const char *const found[] = {"there is no consistent state", "impacts and releases do not end",
+                                        "there are several motions"};
+    const int is_dry = beads_is_dry(&r->world);
     const fst_beads_paradox *paradox = &r->flow.paradox;
     const beads_seen seen = see(r);
     const fst_status status = beads_find_bonds(&r->world, seen.gone, seen.y, &r->bonds, &r->bond_count, error);
@@ -247,9 +250,9 @@ static fst_status tell_paradox(run *r, fst_beads_result *result, fst_error *erro
         beads_group(r->world.count, seen.gone, r->bonds, r->bond_count, result->groups, result->members);
     result->outcome = FST_BEADS_UNDECIDED;
     (void)snprintf(result->reason, sizeof result->reason,
-                   "paradox: at t = %.6g %s of %d contacts with dry friction", paradox->time,
-                   paradox->motions ? "there are several motions" : "there is no consistent state",
-                   paradox->touch_count);
+                   "%s at t = %.6g %s of %d contacts%s; run.method: stepping goes on",
+                   paradox->motions == 1 ? "crowded:" : "paradox:", paradox->time, found[paradox->motions],
+                   paradox->touch_count, is_dry ? " with dry friction" : "");
     return FST_OK;
 }
 
@@ -282,7 +285,7 @@ static fst_status begin(run *r, const fst_params *p, double steps_per_turn, fst_
                              error);
 }
 
-/* `status`: of the beginning, which dry friction may have left without a motion. */
+/* `status`: of the beginning, which contacts may have left without a motion. */
 static fst_status simulate(run *r, const fst_params *p, fst_status status, fst_beads_result *result,
                            fst_error *error)
 {

@@ -259,6 +259,30 @@ static void test_contacts_that_open_together(void **unused)
     CHECK_CLOSE(r->energy_residual, 0, 1e-8);
 }
 
+/* Eight beads fall together at 40 Hz.  Where their contacts have no consistent state, the run ends with what was till then,
+ * and says so. */
+static void test_no_state(void **unused)
+{
+    (void)unused;
+    fst_params beads[8];
+    for (int i = 0; i < 8; ++i) {
+        beads[i] = fst_default_params();
+        beads[i].drive_frequency = 40;
+        beads[i].friction_gamma = 312.5;
+        beads[i].start_phi = 3 + 45.0 * i;
+        beads[i].run_periods = 10;
+        beads[i].run_discard = 5;
+    }
+    fst_beads_options options = fst_default_beads_options();
+    options.pair_rate = 312.5;
+    const fst_beads_result *r = result_of(beads, 8, &options);
+    assert_int_equal(r->outcome, FST_BEADS_UNDECIDED);
+    assert_int_equal(r->paradox.motions, 0);
+    assert_true(r->paradox.time > 0 && r->paradox.touch_count > 3 && r->group_count > 0);
+    CHECK_CONTAINS(r->reason, "there is no consistent state of");
+    CHECK_CONTAINS(r->reason, "run.method: stepping goes on");
+}
+
 /* A plate that ends before the bead's orbit: it is ejected, the other, nearer to the axis, goes on. */
 static void test_ejected(void **unused)
 {
@@ -364,6 +388,7 @@ int main(void)
         cmocka_unit_test(test_interrupted),
         cmocka_unit_test(test_opposite_pair),
         cmocka_unit_test(test_contacts_that_open_together),
+        cmocka_unit_test(test_no_state),
         cmocka_unit_test(test_walker_by_stepping),
         cmocka_unit_test(test_bar_by_stepping),
     };
