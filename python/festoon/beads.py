@@ -152,7 +152,7 @@ class Beads(Bead):
         BadInput
             Where an argument is wrong, or beads overlap; the sentence says what was expected.
         NoConvergence
-            Where contacts have no consistent state, or impacts do not end.
+            Where no step is small enough for the tolerance.
         Interrupted
             After Ctrl-C; `partial` is the trajectory until then, or None.
         """

@@ -129,9 +129,9 @@ static int strikes(const struct effect *row, const fst_params *params, char valu
     return strcmp(value, row->without) == 0 || fst_name_place(value, row->without) >= 0;
 }
 
-/* Keys that say something of a list of beads alone. */
+/* Keys that say something of a list of beads alone, the first three of two and more. */
 static const char *const of_beads[] = {"contact.pair_rate", "contact.pair_mu", "model.chi", "run.method"};
-enum { OF_BEADS = sizeof of_beads / sizeof *of_beads };
+enum { BETWEEN_TWO = 3, OF_BEADS = sizeof of_beads / sizeof *of_beads };
 
 static int needs_beads(const char *key)
 {
@@ -186,9 +186,10 @@ static fst_status check_one(const fst_params *params, fst_error *error)
     return FST_OK;
 }
 
-static fst_status check_without_beads(const fst_params *params, fst_error *error)
+/* What one bead alone does not have: what is between two, and in no list a method. */
+static fst_status check_alone(const fst_params *params, fst_error *error)
 {
-    for (int i = 0; i < OF_BEADS; ++i)
+    for (int i = 0; i < (params->bead_count ? BETWEEN_TWO : OF_BEADS); ++i)
         if (is_given(params, of_beads[i]))
             return fst_fail(error, FST_BAD_INPUT, of_beads[i],
                             "%s has no effect on one bead: list several in beads, or leave %s out", of_beads[i],
@@ -227,7 +228,7 @@ static fst_status check_beads(const fst_params *params, fst_error *error)
         if (++struck == params->bead_count || bead_gives(params, bead, why.where))
             return fst_fail(error, FST_BAD_INPUT, why.where, "bead %d: %s", bead, why.sentence);
     }
-    return FST_OK;
+    return params->bead_count == 1 ? check_alone(params, error) : FST_OK;
 }
 
 fst_status fst_params_check_effects(const fst_params *params, fst_error *error)
@@ -237,5 +238,5 @@ fst_status fst_params_check_effects(const fst_params *params, fst_error *error)
     if (params->bead_count)
         return check_beads(params, error);
     const fst_status status = check_one(params, error);
-    return status == FST_OK ? check_without_beads(params, error) : status;
+    return status == FST_OK ? check_alone(params, error) : status;
 }

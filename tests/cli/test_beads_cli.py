@@ -208,6 +208,7 @@ class Refused(Beads):
         self.says("more than 1000 beads", "beads: [" + ", ".join(["{}"] * 1001) + "]\n")
         self.says("choose stepping", OPPOSITE, "--set", "run.step=1e-5")
         self.says("list several in beads", "contact: {pair_rate: 300}\n")
+        self.says("contact.pair_rate has no effect on one bead", "contact: {pair_rate: 300}\nbeads:\n  - {}\n")
         self.says("list several in beads", "model: {chi: 1e-3}\n")
         self.says("scene.yaml:2", "beads:\n  - start: {phii: 3}\n")
         self.says("start.phi", "beads:\n  - start: {phii: 3}\n")
