@@ -1,5 +1,6 @@
 /* bench_beads.c - what a turn of the drive costs with several beads, at 30 Hz: exactly, two to four of them, and by
- * time stepping, 64 and 1000. */
+ * time stepping, 64 and 1000; and what the rate of a walker costs with an error of 1e-4, exactly and by the steps of
+ * Moreau and Jean, which Siconos makes too.  (LAMMPS and LIGGGHTS have no field with a gradient that turns.) */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -78,6 +79,42 @@ static int measure(const char *name, int count, const double *state, fst_beads_o
     return 0;
 }
 
+/* The rate at which a walker's centre circles, over 500 turns, and the time that this takes. */
+static double walk(double rtol, double steps_per_turn, double *took)
+{
+    fst_params beads[2];
+    fst_beads_options options = fst_default_beads_options();
+    fst_beads_result result;
+    options.chi = 1.243e-3;
+    options.method = steps_per_turn > 0 ? FST_BEADS_STEPPING : FST_BEADS_EXACT;
+    options.steps_per_turn = steps_per_turn;
+    for (int i = 0; i < 2; ++i) {
+        beads[i] = fst_default_params();
+        beads[i].drive_frequency = 30;
+        beads[i].start_phi = 3 + 37 * i;
+        beads[i].run_rtol = rtol;
+        beads[i].run_periods = 600;
+        beads[i].run_discard = 100;
+    }
+    const double began = now();
+    const int good = fst_beads_run(beads, 2, &options, &result, NULL) == FST_OK && result.group_count > 0;
+    *took = now() - began;
+    const double rate = good ? result.groups[0].centre_rate : NAN;
+    fst_beads_free(&result);
+    return rate;
+}
+
+static int compare_walkers(void)
+{
+    double took, exact, stepped;
+    const double right = walk(1e-11, 0, &took), loose = walk(1e-4, 0, &exact),
+                 steps = walk(1e-9, 16000, &stepped);
+    const double wrong[2] = {fabs(loose / right - 1), fabs(steps / right - 1)};
+    (void)printf("a walker's rate: exact to %.1e in %.2f s, stepped to %.1e in %.2f s: %.0f times as long\n",
+                 wrong[0], exact, wrong[1], stepped, stepped / exact);
+    return !(wrong[0] < wrong[1] && wrong[1] < 3e-4);
+}
+
 int main(void)
 {
     (void)setvbuf(stdout, NULL, _IOLBF, 0);
@@ -108,5 +145,5 @@ int main(void)
     failed |= measure("64 beads, stepping", 64, state, options, 20);
     place(1000, 2.2, state);
     failed |= measure("1000 beads, stepping", 1000, state, options, 0.1);
-    return failed;
+    return failed | compare_walkers();
 }

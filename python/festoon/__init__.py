@@ -27,6 +27,7 @@ from ._native import lib as _lib
 from ._native import text_of as _text_of
 from ._quantities import UNSET
 from .beads import Beads, BeadsRun, BeadsTrajectory
+from .beads_orbits import BeadsBranch, BeadsLocked, BeadsOrbit
 from .bead import Bead, Groups, MaterialWarning
 from .files import export, paper, read, schema
 from .films import track
@@ -57,6 +58,9 @@ __all__ = [
     "BadInput",
     "Bead",
     "Beads",
+    "BeadsBranch",
+    "BeadsLocked",
+    "BeadsOrbit",
     "BeadsRun",
     "BeadsTrajectory",
     "Branch",

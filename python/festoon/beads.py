@@ -3,7 +3,7 @@
 import json
 import math
 import os
-from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
@@ -13,6 +13,9 @@ from ._pickled import Told
 from ._progress import Progress
 from ._quantities import Scales, quantity, units_of, value_text
 from .bead import Bead, Path, key_of, keyword_of
+
+if TYPE_CHECKING:
+    from .beads_orbits import BeadsBranch, BeadsLocked, BeadsOrbit
 
 #: The twelve numbers of a bead, in their order.
 NUMBERS = ("X", "Y", "Z", "vX", "vY", "vZ", "nX", "nY", "nZ", "WX", "WY", "WZ")
@@ -159,6 +162,82 @@ class Beads(Bead):
         scene = self.replace(run__periods=periods, run__discard=discard)._asked()
         return _run(scene, trajectory, fps, start, progress)  # type: ignore[arg-type]
 
+    def orbit(self, *, progress: Progress = None) -> "BeadsOrbit":  # type: ignore[override]
+        """The periodic orbit by which the motion from the start passes, stable or not: a `BeadsOrbit`.
+
+        Parameters
+        ----------
+        progress
+            True: a bar; or a function of (fraction, what).
+
+        Returns
+        -------
+        BeadsOrbit
+            Its numbers are scaled, those of `festoon orbit --json`.
+
+        Raises
+        ------
+        NoConvergence
+            Where there is none within run.periods, or contacts open and close on it.
+        Interrupted
+            After Ctrl-C.
+        """
+        from . import beads_orbits
+
+        return beads_orbits.orbit(self._asked(), progress)  # type: ignore[arg-type]
+
+    def locked(self, *, progress: Progress = None) -> "BeadsLocked":  # type: ignore[override]
+        """The state to which the start leads in which the beads turn with the magnet: a `BeadsLocked`.
+
+        Parameters
+        ----------
+        progress
+            True: a bar; or a function of (fraction, what).
+
+        Returns
+        -------
+        BeadsLocked
+            With loads, forces and eigenvalues.
+
+        Raises
+        ------
+        NoConvergence
+            Where the start leads to none within run.periods; the sentence says why.
+        Interrupted
+            After Ctrl-C.
+        """
+        from . import beads_orbits
+
+        return beads_orbits.locked(self._asked(), progress)  # type: ignore[arg-type]
+
+    def branch(self, *, progress: Progress = None, **ranges: Any) -> "BeadsBranch":  # type: ignore[override]
+        """Follow the locked state to which the start leads over a parameter, ``frequency=(10, 400)``: a `BeadsBranch`.
+
+        Parameters
+        ----------
+        progress
+            True: a bar; or a function of (fraction, what).
+        **ranges
+            The range of one parameter.
+
+        Returns
+        -------
+        BeadsBranch
+            Its points and special points, to where a contact opens or closes.
+
+        Raises
+        ------
+        BadInput
+            Where an argument is wrong; the sentence says what was expected.
+        NoConvergence
+            Where the start leads to no locked state.
+        Interrupted
+            After Ctrl-C.
+        """
+        from . import beads_orbits
+
+        return beads_orbits.branch(self._asked(), progress, ranges)  # type: ignore[arg-type]
+
     def __repr__(self) -> str:
         rest = super().__repr__()[len("Bead(") :]
         return f"Beads(beads={self.beads}{', ' if rest != ')' else ''}{rest}"
@@ -189,7 +268,7 @@ def _of_one(name: str) -> Callable[..., Any]:
     return refused
 
 
-for _name in ("sweep", "orbit", "locked", "branch", "lyapunov", "flow", "start_state", "rhs", "jacobian", "observe", "movie", "lab"):
+for _name in ("sweep", "lyapunov", "flow", "start_state", "rhs", "jacobian", "observe", "movie", "lab"):
     setattr(Beads, _name, _of_one(_name))
 
 

@@ -562,7 +562,8 @@ def _branch_again(image: Any, bead: Optional[Bead]) -> Branch:
     return Branch(struct_of(image), bead)
 
 
-def _range(key: str, value: Any) -> Tuple[float, float]:
+def range_of(key: str, value: Any) -> Tuple[float, float]:
+    """The range of a key, in the unit of its numbers."""
     place = lib.fst_param_find(key.encode())
     if place < 0:
         # The sentence names the nearest key.
@@ -589,7 +590,7 @@ def branch(bead: Bead, kind: str, progress: Progress, keywords: Mapping[str, Any
         elif name == "step":
             options.longest_step = value
         else:
-            ranges.append((known_key(name), _range(known_key(name), value)))
+            ranges.append((known_key(name), range_of(known_key(name), value)))
     if not 1 <= len(ranges) <= 2:
         raise BadInput("branch", "give the range of one parameter, as in omega=(0.15, 0.6), or of two")
     words, kept = strings([key for key, _ in ranges])

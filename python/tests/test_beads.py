@@ -133,7 +133,7 @@ def test_what_is_wrong_is_said(pair):
     with pytest.raises(fs.BadInput, match="Beads"):
         fs.Bead(pair.scene() + "\n")
     with pytest.raises(fs.BadInput, match="for one bead"):
-        pair.orbit()
+        pair.lyapunov()
     with pytest.raises(fs.BadInput, match="for one bead: festoon sweep"):
         fs.sweep(pair, frequency=[29, 30])
     with pytest.raises(fs.BadInput, match="shape"):
@@ -152,3 +152,37 @@ def test_ctrl_c_keeps_the_samples(pair, monkeypatch):
     with pytest.raises(fs.Interrupted) as stop:
         pair.replace(run__periods=400).run(trajectory=True, progress=tell)
     assert len(stop.value.partial) > 0
+
+
+def bar_of_two():
+    places = [{"start__r": 0.12, "start__phi": phi} for phi in (0, 180)]
+    return fs.Beads(beads=places, start__spin="rest", **{**WALKER, "run__periods": 60})
+
+
+def test_orbit(program, tmp_path):
+    pair = fs.Beads(beads=[{"start__phi": 3}, {"start__phi": 183}], **{**WALKER, "run__periods": 40})
+    orbit = pair.orbit()
+    pair.save(tmp_path / "pair.yaml")
+    theirs = ask(program, "orbit", str(tmp_path / "pair.yaml"), "--json")
+    assert orbit.to_dict()["multipliers"] == theirs["multipliers"]
+    assert orbit.stable and orbit.symmetry == "exchange"
+    assert abs(orbit.multipliers[0] + 0.9991387) < 5e-8
+    assert abs(orbit.beads[1]["mean_r"] - 0.92580221093) < 5e-12
+    assert pickle.loads(pickle.dumps(orbit)) == orbit
+
+
+def test_locked_and_branch():
+    bar = bar_of_two()
+    locked = bar.locked()
+    assert locked.stable and abs(locked.power - 5.53486e-5) < 5e-11
+    assert all(abs(bead["load_weights"] - 19.72219) < 5e-6 for bead in locked.beads)
+    assert abs(locked.pair_forces[0]["force"] - 3.29360694) < 5e-9 and len(locked.eigenvalues) == 16
+    branch = bar.branch(frequency=(25, "400 Hz"))
+    assert [special["type"] for special in branch.specials] == ["hopf", "hopf", "contact"]
+    assert abs(branch.specials[2]["value"] - 255.27) < 0.01 and branch.parameter == "drive.frequency"
+    sways = (branch.values > branch.specials[0]["value"]) & (branch.values < branch.specials[1]["value"])
+    assert (branch.stable != sways).all() and len(branch.points) == len(branch.values) and "hopf at 194.2" in repr(branch)
+    with pytest.raises(fs.NoConvergence, match="no state in which they turn with the magnet"):
+        fs.Beads(beads=[{"start__phi": 3}, {"start__phi": 183}], **WALKER).locked()
+    with pytest.raises(fs.BadInput, match="the range of one parameter"):
+        bar.branch()
