@@ -4,63 +4,7 @@
  * zero byte, and a list of numbers is the address of doubles.  A struct `lab` is one bead: its parameters, a
  * motion that is shown, and the result of its last run.  A page, or a worker of it, may have several.
  */
-#include <stdlib.h>
-#include <string.h>
-
-#include <festoon/festoon.h>
-
-#define EXPORT(name) __attribute__((export_name(#name)))
-
-/* The page is told how far a run is; what it answers other than 0 ends the run. */
-__attribute__((import_module("lab"), import_name("tell"))) int lab_tell(double fraction);
-
-/* The columns of a row of the motion; src/core.js has the same names in the same order. */
-enum {
-    COLUMN_TIME, /* s, since the motion began */
-    COLUMN_TURNS,
-    COLUMN_OMEGA,
-    COLUMN_X, /* in the laboratory, l */
-    COLUMN_Y,
-    COLUMN_R,
-    COLUMN_PHI, /* Phi, unwrapped, rad */
-    COLUMN_ALPHA,
-    COLUMN_N,            /* moment, in the laboratory, 3 */
-    COLUMN_B = 11,       /* field, in the laboratory, 3 */
-    COLUMN_N_LOCAL = 14, /* moment along r, alpha, z */
-    COLUMN_FIELD = 17,
-    COLUMN_ANGLE,
-    COLUMN_SLIP, /* along r and alpha, 2 */
-    COLUMN_SLIP_SIZE = 21,
-    COLUMN_SPIN,
-    COLUMN_LOAD, /* in weights of the bead */
-    COLUMN_ENERGY,
-    COLUMN_FRICTION, /* size of the friction force, weights */
-    COLUMN_FRICTION_USE,
-    COLUMN_STICKS,
-    COLUMN_SPEED,
-    COLUMN_FORCE,     /* friction force on the bead, in the laboratory, weights, 2 */
-    COLUMN_TURN = 31, /* quaternion of the bead, x y z w */
-    COLUMNS = 35
-};
-
-enum { ROWS = 4096, TEXT_SIZE = 512 };
-
-typedef struct lab {
-    fst_params params, kept;
-    fst_error error;
-    fst_run_result result;
-    fst_model *model; /* of the motion that is shown, with its flow; NULL: none */
-    fst_flow *flow;
-    fst_grid *grid;
-    double time_unit, length_unit;
-    double seconds, turns, phi; /* where the motion stood when this flow began */
-    double turn[4];             /* quaternion of the bead, laboratory <- bead */
-    double w_before[3];         /* angular velocity at the last row, in the laboratory */
-    double before;              /* flow time of the last row */
-    double numbers[16];
-    char text[TEXT_SIZE];
-    double rows[ROWS][COLUMNS];
-} lab;
+#include "lab.h"
 
 /* ---------------------------------------------------------------- memory, version, tables */
 
@@ -93,6 +37,7 @@ EXPORT(lab_new) lab *lab_new(void)
 EXPORT(lab_free) void lab_free(lab *l)
 {
     forget_flow(l);
+    fst_beads_free(&l->beads);
     fst_grid_free(l->grid);
     free(l);
 }
@@ -228,6 +173,8 @@ EXPORT(lab_check) int lab_check(lab *l)
     l->params.run_discard = fst_run_discard(&l->params);
     fst_status status = fst_params_check_effects(&l->params, &l->error);
     fst_model *model = NULL;
+    if (status == FST_OK && lab_is_recorded(l))
+        return (int)lab_check_recorded(l);
     if (status == FST_OK)
         status = fst_model_new(&l->params, &model, &l->error);
     if (status == FST_OK)
@@ -249,7 +196,7 @@ EXPORT(lab_warning) const char *lab_warning(lab *l)
 EXPORT(lab_groups) const double *lab_groups(lab *l)
 {
     fst_model *model;
-    if (fst_model_new(&l->params, &model, &l->error) != FST_OK)
+    if (fst_field_model_new(&l->params, NAN, &model, &l->error) != FST_OK)
         return NULL;
     const fst_groups g = fst_model_groups(model);
     fst_model_free(model);
@@ -279,6 +226,8 @@ EXPORT(lab_run) int lab_run(lab *l)
     const fst_progress progress = {NULL, tell};
     fst_run_options options = fst_default_run_options();
     options.progress = &progress;
+    if (lab_is_recorded(l))
+        return (int)lab_run_recorded(l, &progress);
     return (int)fst_run(&l->params, &options, &l->result, &l->error);
 }
 
@@ -412,6 +361,12 @@ static void to_laboratory(const double c, const double s, const double *from, do
     to[1] = s * from[0] + c * from[1];
 }
 
+void lab_turn(double turn[4], const double by[3], const double n[3])
+{
+    turn_by(turn, by);
+    put_upright(turn, n);
+}
+
 /* Turn the bead from the row before to this one. */
 static void roll_on(lab *l, const fst_flow_info *info, double c, double s, const double n[3])
 {
@@ -419,8 +374,7 @@ static void roll_on(lab *l, const fst_flow_info *info, double c, double s, const
     to_laboratory(c, s, info->state + FST_WX, w);
     for (int i = 0; i < 3; ++i)
         by[i] = 0.5 * (w[i] + l->w_before[i]) * (info->t - l->before);
-    turn_by(l->turn, by);
-    put_upright(l->turn, n);
+    lab_turn(l->turn, by, n);
     memcpy(l->w_before, w, sizeof w);
     l->before = info->t;
 }
@@ -466,6 +420,8 @@ static void fill_row(lab *l, double *row)
         row[COLUMN_FORCE + i] /= weight;
     roll_on(l, &info, c, s, row + COLUMN_N);
     memcpy(row + COLUMN_TURN, l->turn, sizeof l->turn);
+    row[COLUMN_Z] = g.eps;
+    row[COLUMN_MAGNET] = turns;
 }
 
 /* The motion begins at start.*; `ramp` is the change of omega in a unit of time.  Returns a status. */
@@ -562,11 +518,21 @@ EXPORT(lab_columns) int lab_columns(void)
     return COLUMNS;
 }
 
-/* The field at a place of the magnet's frame, for the parameters of the motion. */
+/* A recorded motion takes the place of the one that is shown. */
+EXPORT(lab_forget) void lab_forget(lab *l)
+{
+    forget_flow(l);
+}
+
+/* The field at a place of the magnet's frame, for the parameters of the motion; NULL: lab_error. */
 EXPORT(lab_field) const double *lab_field(lab *l, double x, double y)
 {
     double grad[3][3];
-    fst_field(l->model, x, y, l->numbers, grad);
+    fst_model *own = NULL;
+    if (!l->model && fst_field_model_new(&l->params, NAN, &own, &l->error) != FST_OK)
+        return NULL;
+    fst_field(own ? own : l->model, x, y, l->numbers, grad);
+    fst_model_free(own);
     return l->numbers;
 }
 

@@ -60,18 +60,19 @@ export class Camera {
     }
 
     /* Eye, target and upward direction for a row; `hull` is what is to be seen, circles about the axis as [radius, z];
-     * `aspect` is width over height, `fov` the vertical angle in degrees. */
-    look(row, eps, hull, aspect, fov) {
+     * `aspect` is width over height, `fov` the vertical angle in degrees; `middle` is the place about which it is, where
+     * that is not the axis. */
+    look(row, eps, hull, aspect, fov, middle = [0, 0]) {
         const { azimuth, elevation, zoom } = this.place, close = this.mode === "bead";
         let a = azimuth * RADIANS;
         if (this.mode === "magnet")
-            a += 2 * Math.PI * row[COLUMN.turns];
+            a += 2 * Math.PI * row[COLUMN.magnet];
         if (close)
             a += Math.atan2(row[COLUMN.y], row[COLUMN.x]);
         const e = elevation * RADIANS, tan = Math.tan((fov * RADIANS) / 2), h = [Math.cos(a), Math.sin(a)];
         const up = [-h[0] * Math.sin(e), -h[1] * Math.sin(e), Math.cos(e)];
         const fit = close ? { distance: (4.2 * eps) / tan / Math.min(1, aspect), shift: 0 } : fitHull(hull, e, tan, aspect);
-        const target = close ? [row[COLUMN.x], row[COLUMN.y], eps] : up.map((v) => fit.shift * v), distance = fit.distance / zoom;
+        const target = close ? [row[COLUMN.x], row[COLUMN.y], row[COLUMN.z]] : up.map((v, i) => fit.shift * v + (middle[i] || 0)), distance = fit.distance / zoom;
         return {
             target, up,
             eye: [target[0] + distance * h[0] * Math.cos(e), target[1] + distance * h[1] * Math.cos(e),

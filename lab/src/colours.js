@@ -3,3 +3,5 @@ export const NORTH = "#d43d3d", SOUTH = "#3b6fd4";
 export const ARROWS = { moment: "#f2c230", field: "#7fd0ff", friction: "#ff8a5c", load: "#9be08a" };
 /* Lengths of arrows, in bead radii for one weight of the bead.  The magnet pulls the bead down with some twenty. */
 export const FRICTION = 1.2, LOAD = 0.12;
+/* The colours of several beads, as in figures (FST_COLOURS, style.c), and the dot of two that touch. */
+export const BEADS = ["#0072b2", "#d55e00", "#009e73", "#e69f00", "#cc79a7", "#56b4e9", "#882255", "#999933"], TOUCH = "#ffffff";

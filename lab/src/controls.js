@@ -18,7 +18,7 @@ export const SHOWN = {
 };
 const MAIN = ["drive.frequency", "friction.law", "friction.mu", "model.kappa", "magnet.depth", "bead.radius"];
 const HIDDEN = new Set(["magnet.file", "magnet.parts"]);
-/* What the page has no controls for: it shows one bead on a flat plate in air, over a magnet that turns steadily. */
+/* What the page has no controls for: lists of beads and worlds, which a scene brings. */
 const BEYOND = /^(medium|wave|world|coils|field|beads)\.|^plate\.(shape|bowl_radius|tilt)|^drive\.(waveform|amplitude|chirp|table)|^contact\.pair|^model\.chi$|^run\.(method|step|duration)$/;
 export const isBeyond = (key) => BEYOND.test(key);
 

@@ -2,7 +2,7 @@
 
 export const STATUS = { OK: 0, BAD_INPUT: 1, NO_MEMORY: 6, INTERRUPTED: 8 };
 const MOST_POINTS = 1e5;
-const ROW = { PART: 1, VECTOR: 2 }; /* OF_* of lab.c: what a row behind the table belongs to */
+const ROW = { PART: 1, VECTOR: 2, BEAD: 3 }; /* OF_* of lab.c: what a row behind the table belongs to */
 export const STOP = { TIME: 1, EDGE: 4, LIFT_OFF: 8 }; /* FST_AT_* */
 
 /* The columns of a row of the motion: lab.c has the same names in the same order. */
@@ -10,6 +10,7 @@ const WIDTHS = [
     ["time", 1], ["turns", 1], ["omega", 1], ["x", 1], ["y", 1], ["r", 1], ["phi", 1], ["alpha", 1], ["n", 3], ["b", 3],
     ["nLocal", 3], ["field", 1], ["angle", 1], ["slip", 2], ["slipSize", 1], ["spin", 1], ["load", 1], ["energy", 1],
     ["friction", 1], ["use", 1], ["sticks", 1], ["speed", 1], ["force", 2], ["turn", 4],
+    ["z", 1], ["magnet", 1], ["touches", 1],
 ];
 export const COLUMN = {};
 let columns = 0;
@@ -36,7 +37,7 @@ export class FestoonError extends Error {
 const number = (value) => (Number.isFinite(value) ? value : null);
 
 /* What the C library asks of a system: to write nothing and to know no environment. */
-function imports(memory, tell) {
+function imports(memory, tell, take) {
     const zeros = (a, b) => {
         new DataView(memory().buffer).setUint32(a, 0, true);
         new DataView(memory().buffer).setUint32(b, 0, true);
@@ -51,7 +52,7 @@ function imports(memory, tell) {
         return 0;
     };
     return {
-        lab: { tell },
+        lab: { tell, take },
         wasi_snapshot_preview1: {
             environ_get: () => 0,
             environ_sizes_get: zeros,
@@ -74,9 +75,10 @@ export class Core {
     static async open(module, tell) {
         const core = new Core();
         const heard = tell || (() => 0);
-        const instance = await WebAssembly.instantiate(module, imports(() => core.c.memory, heard));
+        const instance = await WebAssembly.instantiate(module, imports(() => core.c.memory, heard, (beads) => core.take(core.rows(beads))));
         core.c = instance.exports;
         core.c._initialize?.();
+        core.take = () => 1;
         core.bead = core.given(core.c.lab_new());
         if (core.c.lab_columns() !== COLUMNS)
             throw new Error("lab.c and core.js name different columns");
@@ -251,10 +253,73 @@ export class Core {
 
     /* ------------------------------------------------------------ runs */
 
-    /* What `festoon run --json` prints for these parameters. */
+    /* What `festoon run --json` prints for these parameters; of several beads without the list of events. */
     run() {
         this.check(this.c.lab_run(this.bead));
-        return this.result();
+        if (!this.isRecorded())
+            return this.result();
+        return this.isList() ? this.beadsResult() : this.worldResult();
+    }
+
+    /* Whether the motion is that of several beads or of one in a world, which is recorded as a whole; and of a list. */
+    isRecorded() {
+        return this.c.lab_is_recorded(this.bead) !== 0;
+    }
+
+    isList() {
+        return this.rowsOf(ROW.BEAD).length > 0;
+    }
+
+    radii() {
+        return Array.from({ length: this.c.lab_bead_count(this.bead) }, (_, i) => this.c.lab_radius(this.bead, i));
+    }
+
+    /* Record the motion: `take` gets rows, one for each bead, of every sample, valid until it returns, and returns whether
+     * the recording ends there. */
+    record(take) {
+        this.c.lab_forget(this.bead);
+        this.take = (rows) => (take(rows) ? 1 : 0);
+        const status = this.c.lab_record(this.bead);
+        if (status !== STATUS.INTERRUPTED)
+            this.check(status);
+    }
+
+    worldResult() {
+        const run = this.result(), frame = this.text(this.c.lab_world_frame(this.bead));
+        const numbers = Array.from(this.doubles(this.c.lab_world_numbers(this.bead), 39), number);
+        return {
+            ...run, frame, final_time: numbers[0], final_lab: numbers.slice(1, 13), final_lab_si: numbers.slice(13, 25),
+            final_state: numbers.slice(25, 37), mean_height: numbers[37], mean_medium_power: numbers[38],
+        };
+    }
+
+    beadsResult() {
+        const text = (which) => this.text(this.c.lab_beads_text(this.bead, which));
+        const all = this.doubles(this.c.lab_beads_numbers(this.bead), 1000), first = Array.from(all.subarray(0, 11), number);
+        let at = 11;
+        const next = (count) => Array.from(all.subarray(at, (at += count)), number);
+        const counts = {};
+        for (let i = 0, name; (name = this.text(this.c.lab_event_name(i))) !== ""; ++i)
+            [counts[name]] = next(1);
+        const beads = Array.from({ length: first[0] }, (_, i) => {
+            const [mean_r, mean_alpha_dot, mean_load_weights, ejected_at] = next(4);
+            return { regime: text(3 + i), mean_r, mean_alpha_dot, mean_load_weights, ejected_at, final_state: next(12) };
+        });
+        const groups = Array.from({ length: first[1] }, (_, i) => {
+            const [count, mean_r, centre_rate, axis_rate] = next(4);
+            return { kind: text(20 + i), members: next(count), mean_r, centre_rate, axis_rate };
+        });
+        const contacts = Array.from({ length: first[2] }, () => {
+            const [a, b, force] = next(3);
+            return { a, b: b < 0 ? null : b, force };
+        });
+        const [drive, plate, pair, impacts, energy_residual, restitution] = first.slice(5);
+        const scales = this.groups();
+        return {
+            sentence: text(0), outcome: text(1), reason: text(2) || null, omega: first[3], frequency_hz: (first[3] * this.value("friction.gamma")) / (2 * Math.PI),
+            periods: first[4], beads, groups, contacts, powers: { drive, plate, pair, impacts }, energy_residual, restitution, counts, scales,
+            version: this.version,
+        };
     }
 
     result() {
@@ -313,6 +378,6 @@ export class Core {
     }
 
     field(x, y) {
-        return Array.from(this.doubles(this.c.lab_field(this.bead, x, y), 3));
+        return Array.from(this.doubles(this.given(this.c.lab_field(this.bead, x, y)), 3));
     }
 }

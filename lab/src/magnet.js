@@ -16,9 +16,10 @@ function bodyOf(part, length, depth) {
     };
 }
 
-/* `north` is the sign of the end on +X, which the field itself tells; `parts` and `depth` are in metres. */
-export function bodiesOf(groups, north, parts = [], depth = 0) {
-    if (parts.length)
+/* `north` is the sign of the end on +X, which the field itself tells; `parts` and `depth` are in metres; a magnet that is
+ * told by its parts may have none. */
+export function bodiesOf(groups, north, parts = [], depth = 0, real = parts.length > 0) {
+    if (real)
         return parts.map((part) => bodyOf(part, groups.length_unit_m, depth));
     const below = groups.h - groups.eps, width = groups.lambda * Math.max(groups.lines - 1, 0);
     return [{
@@ -30,14 +31,14 @@ export function bodiesOf(groups, north, parts = [], depth = 0) {
 /* What a view has to show, as circles about the axis, [radius, z]: the place of the path, and all that the bodies sweep
  * as they turn, as far as that is of the bead's size of things. */
 const FARTHEST = 3;
-export function hullOf(bodies, reach, eps) {
+export function hullOf(bodies, reach, eps, low = 0, high = 2 * eps) {
     const circles = bodies.flatMap(({ kind, centre, size, turn }) => {
         const edges = kind === "cuboid" ? size : kind === "cylinder" ? [size[0], size[0], size[1]] : [size[0], size[0], size[0]];
         const diagonal = Math.hypot(...edges), [x, y, z] = turn ? [diagonal, diagonal, diagonal] : edges, far = (at, edge) => Math.abs(at) + edge / 2;
         const radius = kind === "cuboid" ? Math.hypot(far(centre[0], x), far(centre[1], y)) : Math.hypot(centre[0], centre[1]) + x / 2;
         return [1, -1].map((side) => [Math.min(FARTHEST, radius), Math.max(-FARTHEST, centre[2] + (side * z) / 2)]);
     });
-    return [[reach, 0], [reach, 2 * eps], ...circles];
+    return [[reach, low], [reach, high], ...circles];
 }
 
 /* The direction in which a body is magnetised, in the magnet's frame: its axis turned as the body is. */

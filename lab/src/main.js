@@ -1,6 +1,6 @@
-/* main.js - the page: one bead in motion, what is shown of it, and what people do with it. */
+/* main.js - the page: a bead in motion, or several, what is shown of it, and what people do with it. */
 import { CAMERAS, Camera } from "./camera.js";
-import { ARROWS, NORTH, SOUTH } from "./colours.js";
+import { ARROWS, BEADS, NORTH, SOUTH } from "./colours.js";
 import { Controls, element, sentence } from "./controls.js";
 import { COLUMN, COLUMNS, Core, STOP } from "./core.js";
 import { Files } from "./files.js";
@@ -9,6 +9,7 @@ import { bodiesOf, hullOf } from "./magnet.js";
 import { Pace } from "./pace.js";
 import { Panels } from "./panels.js";
 import { Pool } from "./pool.js";
+import { Recording } from "./recording.js";
 import { readAddress, takeGood, writeAddress } from "./state.js";
 import { PRESETS, T } from "./texts.js";
 import { QUANTITIES, SPACING, Trail, unitsOf } from "./trail.js";
@@ -31,7 +32,10 @@ class Lab {
         this.settings = { slow: 20, colour: "nz", turns: TURNS, arrows: new Set(), ramp: null, settle: 0 };
         this.trail = new Trail(ROOM);
         this.camera = new Camera();
+        this.trails = [this.trail]; /* of each bead; `trail` is that of the first */
         this.row = new Float64Array(COLUMNS);
+        this.rows = [this.row];
+        this.recording = null; /* of several beads, or of one in a world */
         this.playing = false;
         this.left = STOP.TIME;
         this.pace = new Pace((now) => this.frame(now));
@@ -92,15 +96,32 @@ class Lab {
     }
 
     furnish() {
-        const groups = this.core.groups(), b = this.core.field(0.9, 0);
+        const { core } = this, groups = core.groups(), magnetic = core.field(0.9, 0), l = groups.length_unit_m;
         this.units = unitsOf(groups);
         this.groups = groups;
-        const north = Math.sign(this.core.field(1, 0)[2]) || 1;
-        const bodies = bodiesOf(groups, north, this.core.parts(), this.core.value("magnet.depth"));
+        const north = Math.sign(core.field(1, 0)[2]) || 1, waveform = core.get("drive.waveform"), wave = waveform === "wave";
+        const real = core.get("magnet.shape") === "parts", radii = this.recording ? core.radii() : [groups.eps];
+        const bodies = real || !wave ? bodiesOf(groups, north, core.parts(), core.value("magnet.depth"), real) : [];
+        const field = Math.hypot(...(this.recording ? this.row.subarray(COLUMN.b, COLUMN.b + 3) : magnetic)) || 1;
         this.view.furnish({
-            eps: groups.eps, plateRadius: groups.plate_radius, ring: 10 / this.units.mm, fieldScale: Math.hypot(...b) || 1,
-            bodies, hull: hullOf(bodies, Math.max(1.2, 1.25 * this.core.value("start.r")), groups.eps),
+            eps: groups.eps, radii, plate: core.get("plate.shape"), bowl: core.value("plate.bowl_radius") / l,
+            plateRadius: groups.plate_radius, ring: 10 / this.units.mm, fieldScale: field, bodies,
+            wave: wave ? { length: core.value("wave.length") / l, sign: core.value("wave.ratio") > 1 ? -1 : 1 } : null,
+            follows: wave || waveform === "carried", hull: this.hullOf(bodies, radii, wave), colours: radii.length > 1 ? BEADS : null,
         });
+    }
+
+    /* What is to be seen: the magnet and where beads begin; a wave has no middle, so there it is what is about the bead. */
+    hullOf(bodies, radii, wave) {
+        const most = Math.max(...radii);
+        if (!this.recording)
+            return hullOf(bodies, Math.max(1.2, 1.25 * this.core.value("start.r")), this.groups.eps);
+        if (wave)
+            return [[14 * most, 0]];
+        const far = Math.max(...this.rows.map((row) => Math.hypot(row[COLUMN.x], row[COLUMN.y]))), heights = this.rows.map((row) => row[COLUMN.z]);
+        if (this.core.get("plate.shape") === "none")
+            return hullOf(bodies, far + most, most, Math.min(...heights) - most, Math.max(...heights) + most);
+        return hullOf(bodies, Math.max(1.2, 1.25 * far), most);
     }
 
     /* The picture is no longer what is the case: a frame is due. */
@@ -112,7 +133,7 @@ class Lab {
         if (!this.units)
             return;
         this.range = this.trail.range(QUANTITIES[this.settings.colour]);
-        this.view.draw({ row: this.row, trail: this.trail, range: this.range, camera: this.camera, arrows: this.settings.arrows });
+        this.view.draw({ rows: this.rows, trails: this.trails, range: this.range, camera: this.camera, arrows: this.settings.arrows });
     }
 
     /* ------------------------------------------------------------ scene and motion */
@@ -153,7 +174,7 @@ class Lab {
         this.controls.texts = this.scene;
         if (key === "drive.frequency" || key === "drive.omega")
             this.settings.ramp = null;
-        if (key.startsWith("start."))
+        if (key.startsWith("start.") || this.recording || this.core.isRecorded())
             this.begin();
         else
             this.goOn(0);
@@ -174,12 +195,17 @@ class Lab {
     /* Begin at start.*, after `settle` turns that are not shown. */
     begin() {
         try {
-            this.row = Float64Array.from(this.core.start(0));
             this.ramping = null;
-            this.trail.clear();
             this.pace.reset();
             this.left = STOP.TIME;
             this.tell("");
+            if (this.core.isRecorded()) {
+                this.beginRecording();
+                return;
+            }
+            this.recording = null;
+            this.takeRows([Float64Array.from(this.core.start(0))]);
+            this.clearTrails();
             this.furnish();
             if (this.settings.settle > 0) {
                 const shown = this.hideTrail ? 0 : Math.min(this.settings.turns, this.settings.settle / 2);
@@ -192,6 +218,58 @@ class Lab {
             this.tell(sentence(error), true);
         }
         this.wake();
+    }
+
+    takeRows(rows) {
+        this.rows = rows;
+        this.row = rows[0];
+    }
+
+    clearTrails() {
+        while (this.trails.length < this.rows.length)
+            this.trails.push(new Trail(ROOM));
+        this.trails.length = this.rows.length;
+        this.trails.forEach((trail) => trail.clear());
+    }
+
+    /* The first sample is computed here, the others come from a worker. */
+    beginRecording() {
+        const recording = (this.recording = new Recording());
+        this.core.record((rows) => {
+            recording.add([Float64Array.from(rows)]);
+            return true;
+        });
+        this.takeRows(recording.rows(0).map((row) => row.slice()));
+        this.clearTrails();
+        this.furnish();
+        let first = true;
+        this.pool.record({ ...this.scene }, (samples) => {
+            recording.add(first ? samples.slice(1) : samples);
+            first = false;
+        }).catch((error) => {
+            if (error.status !== 8 && recording === this.recording)
+                this.tell(sentence(error), true);
+        }).finally(() => {
+            recording.done = true;
+        });
+        this.wake();
+    }
+
+    /* Go on by what is recorded.  Returns the seconds that are done. */
+    advanceRecorded(seconds) {
+        const { recording } = this, before = this.row[COLUMN.time], quantity = QUANTITIES[this.settings.colour];
+        const rows = recording.go(Math.min(before + seconds, recording.end), (passed) =>
+            passed.forEach((row, i) => this.trails[i].take(row, quantity, this.units, this.settings.turns)));
+        this.takeRows(rows);
+        if (recording.done && this.row[COLUMN.time] >= recording.end) {
+            this.tell(T.recordedEnd);
+            this.play(false);
+        }
+        return this.row[COLUMN.time] - before;
+    }
+
+    atRecordedEnd() {
+        return this.recording?.done && this.row[COLUMN.time] >= this.recording.end;
     }
 
     /* Go on without a trail.  Returns whether all of it was done. */
@@ -238,6 +316,8 @@ class Lab {
     advance(seconds, most = Infinity) {
         if (!this.units || this.left !== STOP.TIME)
             return 0;
+        if (this.recording)
+            return this.advanceRecorded(seconds);
         const before = this.row[COLUMN.time];
         const count = Math.max(1, Math.min(MOST_ROWS, Math.ceil(seconds * this.frequency() * ROWS_A_TURN)));
         const begun = performance.now();
@@ -277,6 +357,8 @@ class Lab {
     }
 
     play(on) {
+        if (on && this.atRecordedEnd())
+            this.begin();
         this.playing = on && Boolean(this.units) && this.left === STOP.TIME;
         on = this.playing;
         this.pace.reset();

@@ -1,6 +1,6 @@
 /* panels.js - what stands around the view: transport, cameras, presets, plots, numbers. */
 import { CAMERAS } from "./camera.js";
-import { ARROWS } from "./colours.js";
+import { ARROWS, BEADS } from "./colours.js";
 import { element, sentence } from "./controls.js";
 import { COLUMN } from "./core.js";
 import { factorTold } from "./pace.js";
@@ -101,7 +101,7 @@ export class Panels {
         this.colour = element("select", { id: "colour" }, ...Object.keys(QUANTITIES).map((name) => element("option", { value: name }, T.quantities[name])));
         this.colour.addEventListener("change", () => {
             s.colour = this.colour.value;
-            lab.trail.colourBy(QUANTITIES[s.colour], lab.units);
+            lab.trails.forEach((trail) => trail.colourBy(QUANTITIES[s.colour], lab.units));
             this.showView();
             lab.remember();
             lab.wake();
@@ -268,10 +268,11 @@ export class Panels {
     showLive() {
         const { lab } = this, row = lab.row;
         const text = lab.ramping ? T.rampOn(lab.frequency().toFixed(2)) : `${digits(lab.frequency(), 4)} Hz`;
-        $("live").textContent = `${text} · ${T.live(row[COLUMN.turns].toFixed(1), row[COLUMN.time].toFixed(2))} · ${T.ring}`;
+        const rings = lab.core.get("plate.shape") === "none" || lab.core.get("drive.waveform") === "wave" ? "" : ` · ${T.ring}`;
+        $("live").textContent = `${text} · ${T.live(row[COLUMN.turns].toFixed(1), row[COLUMN.time].toFixed(2))}${rings}`;
         const quantity = QUANTITIES[lab.settings.colour], range = lab.trail.count > 1 ? lab.range : [NaN, NaN];
         const unit = typeof quantity.unit === "function" ? quantity.unit(lab.units) : quantity.unit;
-        const words = `${lab.settings.colour} ${range.map((v) => digits(v, 3)).join(" ")} ${[...lab.settings.arrows]}`;
+        const words = `${lab.rows.length} ${lab.settings.colour} ${range.map((v) => digits(v, 3)).join(" ")} ${[...lab.settings.arrows]}`;
         if (words === this.legend)
             return;
         this.legend = words;
@@ -282,11 +283,19 @@ export class Panels {
             dot.style.background = ARROWS[name];
             return element("span", {}, dot, T.arrowNames[name]);
         });
+        if (lab.rows.length > 1) {
+            $("legend").replaceChildren(...arrows, ...lab.rows.map((bead, i) => {
+                const dot = element("b");
+                dot.style.background = BEADS[i];
+                return element("span", {}, dot, T.bead(i));
+            }));
+            return;
+        }
         $("legend").replaceChildren(...arrows, element("span", {}, `${T.quantities[lab.settings.colour]}: ${digits(range[0], 3)}`, bar, `${digits(range[1], 3)}${unit && ` ${unit}`}`));
     }
 
     drawPhi() {
-        const { canvas, lab } = this, rows = lab.trail.samples.slice(-1400), degrees = (row) => (((row[COLUMN.phi] * DEGREES) % 360) + 360) % 360;
+        const { canvas, lab } = this, rows = lab.trails.flatMap((trail) => trail.samples.slice(-1400)), degrees = (row) => (((row[COLUMN.phi] * DEGREES) % 360) + 360) % 360;
         const series = [
             [T.plotLabels.r, BLUE, (row) => row[COLUMN.r] * lab.units.mm], [T.plotLabels.nz, ORANGE, (row) => row[COLUMN.nLocal + 2]],
             [T.plotLabels.b(lab.units.tesla ? "mT" : "B₀"), GREEN, (row) => row[COLUMN.field] * lab.units.field],
@@ -294,17 +303,20 @@ export class Panels {
         const unit = (canvas.height - 28) / 3 / canvas.height;
         series.forEach(([label, colour, read], i) => {
             canvas.frame({
-                x: [0, 360], every: 60, y: rangeOf([...rows, lab.row].map(read), 0.01), yLabel: label, xLabel: T.plotLabels.phi, from: i * unit, to: i === 2 ? 1 : (i + 1) * unit,
+                x: [0, 360], every: 60, y: rangeOf([...rows, ...lab.rows].map(read), 0.01), yLabel: label, xLabel: T.plotLabels.phi, from: i * unit, to: i === 2 ? 1 : (i + 1) * unit,
                 xTicks: i === 2,
             });
-            canvas.dots(rows.map((row) => [degrees(row), read(row)]), colour, 1.1);
-            canvas.disc(degrees(lab.row), read(lab.row), 4, colour, canvas.ink.text);
+            lab.trails.forEach((trail, k) => {
+                const own = lab.trails.length > 1 ? BEADS[k] : colour;
+                canvas.dots(trail.samples.slice(-1400).map((row) => [degrees(row), read(row)]), own, 1.1);
+                canvas.disc(degrees(lab.rows[k]), read(lab.rows[k]), 4, own, canvas.ink.text);
+            });
         });
     }
 
     drawSweep() {
-        const { canvas, lab } = this, mm = lab.units.mm, points = [...this.points.values()].filter((p) => p.mean_r !== null);
-        const run = this.result?.mean_r !== null && this.result;
+        const { canvas, lab } = this, mm = lab.units.mm, points = [...this.points.values()].filter((p) => Number.isFinite(p.mean_r));
+        const run = Number.isFinite(this.result?.mean_r) && this.result;
         if (!points.length && !run) {
             canvas.note(T.plotLabels.none);
             return;
@@ -347,7 +359,30 @@ export class Panels {
 
     /* ------------------------------------------------------------ numbers of a run */
 
+    fill(rows) {
+        $("numbers").replaceChildren(...rows.map(([name, value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value))));
+        this.lab.panels.frame(Infinity);
+    }
+
+    /* What several beads do. */
+    showBeads(result) {
+        const mm = 1e3 * result.scales.length_unit_m, hertz = 1 / (2 * Math.PI * result.scales.time_unit_s);
+        this.result = result;
+        $("regime").textContent = `${result.sentence[0].toUpperCase()}${result.sentence.slice(1)}.`;
+        $("why-text").textContent = result.reason || "";
+        $("why").hidden = !result.reason;
+        this.fill([
+            ...result.beads.map((bead, i) => [T.bead(i), `${digits(bead.mean_r === null ? null : bead.mean_r * mm)} mm, ${digits(bead.mean_alpha_dot === null ? null : bead.mean_alpha_dot * hertz)} Hz`]),
+            [T.rows.touching, result.contacts.filter(({ b }) => b !== null).map(({ a, b }) => `${a}–${b}`).join(", ") || "–"],
+            [T.rows.impacts, result.powers.drive ? `${digits((100 * result.powers.impacts) / result.powers.drive, 3)} %` : "–"],
+        ]);
+    }
+
     showRun(result) {
+        if (result.beads) {
+            this.showBeads(result);
+            return;
+        }
         const { lab } = this, mm = 1e3 * result.groups.length_unit_m, hertz = 1 / (2 * Math.PI * result.groups.time_unit_s);
         this.result = result;
         const ratio = result.mean_alpha_dot ? Math.abs(result.omega / result.mean_alpha_dot) : null;
@@ -355,7 +390,7 @@ export class Panels {
         const unknown = result.festoons === null && result.regime.endsWith("rotating") && ratio !== null;
         const festoons = unknown ? `${digits(1 + ratio, 3)} ${T.or} ${digits(2 * (1 + ratio), 3)}` : result.festoons === null ? null : digits(result.festoons, 3);
         const measures = {
-            r: digits(result.mean_r === null ? null : result.mean_r * mm), turns: digits(ratio, 3), free: result.scene["friction.law"] === "none",
+            r: digits(result.mean_r === null ? null : result.mean_r * mm), turns: digits(ratio, 3), free: result.scene["friction.law"] === "none", oneOff: result.scene["drive.waveform"] !== "steady",
             festoons,
         };
         $("regime").textContent = (T.regimes[result.regime] || T.regimes.undecided)(measures);
@@ -371,8 +406,8 @@ export class Panels {
             [T.rows.slip, result.rms_slip === null ? "–" : `${digits(result.rms_slip * mm / result.groups.time_unit_s, 3)} mm/s`],
             ...(result.never_slips === null ? [] : [[T.rows.sticking, result.sticking === null ? "–" : `${digits(100 * result.sticking, 3)} %`]]),
             [T.rows.symmetry, T.symmetries[result.symmetry] || "–"],
+            ...(Number.isFinite(result.mean_height) ? [[T.rows.height, `${digits(result.mean_height * mm)} mm`]] : []),
         ];
-        $("numbers").replaceChildren(...rows.map(([name, value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value))));
-        lab.panels.frame(Infinity);
+        this.fill(lab.recording ? rows.filter(([, value]) => value !== "–") : rows);
     }
 }

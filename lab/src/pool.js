@@ -29,6 +29,10 @@ class Runner {
     }
 
     hear(data) {
+        if (data.samples) {
+            this.onSamples?.(data.samples);
+            return;
+        }
         if (data.fraction !== undefined) {
             this.onFraction?.(data.fraction);
             return;
@@ -118,6 +122,22 @@ export class Pool {
             } finally {
                 if (this.latest === runner)
                     this.latest = null;
+            }
+        });
+    }
+
+    /* Record a motion in place of the one that is being recorded; `take` gets its samples as they come. */
+    async record(scene, take) {
+        this.recording?.end();
+        return this.with(async (runner) => {
+            this.recording = runner;
+            runner.onSamples = take;
+            try {
+                return await runner.ask({ kind: "motion", scene });
+            } finally {
+                runner.onSamples = null;
+                if (this.recording === runner)
+                    this.recording = null;
             }
         });
     }

@@ -57,59 +57,95 @@ export function writeAddress(scene, view) {
     return `#${words}`;
 }
 
-const PART = /^magnet\.parts\[(\d+)\]\.(\w+)(?:\[(\d)\])?$/;
+/* An item of a list, "magnet.parts[0].size[1]" or "beads[1].start.phi", and a component of a vector. */
+const ITEM = /^([\w.]+)\[(\d+)\]\.([\w.]+?)(?:\[(\d)\])?$/, COMPONENT = /^([\w.]+)\[(\d)\]$/;
 
-/* A scene as `festoon` reads it: groups with keys below them, and the parts of a magnet as a list. */
+/* A scene as `festoon` reads it: groups with keys below them, lists of items, and vectors as lists of numbers. */
 export function writeScene(scene, comment) {
-    const groups = new Map(), parts = [];
+    const groups = new Map(), lists = new Map();
+    const put = (group, lines) => groups.set(group, [...(groups.get(group) || []), ...lines]);
+    const give = (found, name, place, value) => {
+        if (place === undefined)
+            found[name] = value;
+        else
+            (found[name] ||= [])[Number(place)] = value;
+    };
+    const text = (value) => (Array.isArray(value) ? `[${Array.from(value, (cell) => cell ?? 0).join(", ")}]` : value);
+    const values = new Map();
     for (const [key, value] of Object.entries(scene)) {
-        const part = PART.exec(key), [group, name] = key.split(".");
-        if (part) {
-            const found = (parts[Number(part[1])] ||= {});
-            found[part[2]] = part[3] === undefined ? value : [...(found[part[2]] || []), value];
+        const item = ITEM.exec(key), vector = COMPONENT.exec(key);
+        if (item) {
+            const list = lists.get(item[1]) || [];
+            lists.set(item[1], list);
+            give((list[Number(item[2])] ||= {}), item[3], item[4], value);
         } else {
-            groups.set(group, [...(groups.get(group) || []), `  ${name}: ${value}`]);
+            const [name, place] = vector ? [vector[1], vector[2]] : [key], found = values.get(name) || {};
+            give(found, "value", place, value);
+            values.set(name, found);
         }
     }
-    if (parts.length) {
-        const lines = parts.flatMap((part) => Object.entries(part).map(([name, value], i) =>
-            `    ${i ? " " : "-"} ${name}: ${Array.isArray(value) ? `[${value.join(", ")}]` : value}`));
-        groups.set("magnet", [...(groups.get("magnet") || []), "  parts:", ...lines]);
+    for (const [key, { value }] of values)
+        put(key.split(".")[0], [`  ${key.split(".")[1]}: ${text(value)}`]);
+    for (const [key, items] of lists) {
+        const [group, name] = key.split("."), indent = name ? "    " : "  ";
+        const lines = items.flatMap((item) => Object.entries(item).map(([of, value], i) => `${indent}${i ? " " : "-"} ${of}: ${text(value)}`));
+        put(group, [...(name ? [`  ${name}:`] : []), ...lines]);
     }
     return `# ${comment}\n${[...groups].map(([group, lines]) => `${group}:\n${lines.join("\n")}\n`).join("\n")}`;
+}
+
+/* The pairs of "{a: 1, b: [2, 3]}", which stand for lines of their own. */
+function pairsOf(text) {
+    const inner = /^\{(.*)\}$/.exec(text.trim());
+    return inner ? inner[1].split(/,(?![^[]*\])/).map((pair) => /^\s*"?([A-Za-z_][\w.]*)"?\s*:\s*(.*?)\s*$/.exec(pair)) : null;
 }
 
 /* Read such a file: the plain part of YAML that scenes consist of.  A line that is none of it is an error. */
 export function readScene(text) {
     const scene = Object.create(null); /* no key is there before it is given, whatever its name */
     let group = "", list = null;
-    const give = (key, value, line) => {
+    const put = (key, value, line) => {
         if (key in scene)
             throw new Error(`line ${line}: ${key.slice(0, 60)} is given twice`);
         scene[key] = value.replace(/^(["'])(.*)\1$/, "$2").slice(0, LONGEST);
     };
+    /* A value, or the components of a vector. */
+    const give = (key, value, line) => {
+        const row = /^\[(.*)\]$/.exec(value);
+        if (row)
+            row[1].split(",").forEach((cell, i) => put(`${key}[${i}]`, cell.trim(), line));
+        else
+            put(key, value, line);
+    };
     text.replace(/^\uFEFF/, "").split(/\r?\n/).forEach((whole, index) => {
-        const line = whole.replace(/(^|\s)#.*$/, "").trimEnd();
+        const line = whole.replace(/(^|\s)#.*$/, "").trimEnd(), number = index + 1;
+        const bad = () => new Error(`line ${number}: expected "key: value", as festoon init writes it`);
         if (!line.trim() || line.trim() === "---")
             return;
-        const found = /^(\s*)(- +)?"?([A-Za-z_][\w.]*)"?\s*:\s*(.*)$/.exec(line);
-        if (!found || (found[2] && list === null))
-            throw new Error(`line ${index + 1}: expected "key: value", as festoon init writes it`);
-        const [, indent, dash, name, value] = found, depth = indent.length + (dash || "").length;
-        if (!indent && value === "") {
+        const flow = /^(\s*)- +(\{.*\})$/.exec(line), found = flow || /^(\s*)(- +)?"?([A-Za-z_][\w.]*)"?\s*:\s*(.*)$/.exec(line);
+        const begins = flow || found?.[2];
+        if (begins && list === null && group)
+            list = { key: group, depth: -1, count: 0 }; /* the list is the group itself, as of beads */
+        if (!found || (begins && list === null))
+            throw bad();
+        const pairs = flow ? pairsOf(flow[2]) : pairsOf(found[4]);
+        if (pairs?.some((pair) => !pair))
+            throw bad();
+        const indent = found[1].length, name = flow ? "" : found[3], value = flow ? "" : found[4];
+        const depth = indent + (flow || !found[2] ? 0 : found[2].length);
+        if (!indent && !begins && (value === "" || pairs)) {
             [group, list] = [name, null];
-        } else if (list !== null && (dash || depth > list.depth)) {
-            list.count += dash ? 1 : 0;
-            const key = `${list.key}[${list.count - 1}].${name}`, row = /^\[(.*)\]$/.exec(value);
-            if (row)
-                row[1].split(",").forEach((cell, i) => give(`${key}[${i}]`, cell.trim(), index + 1));
-            else
-                give(key, value, index + 1);
+            pairs?.forEach(([, of, what]) => give(`${group}.${of}`, what, number));
+        } else if (list !== null && (begins || depth > list.depth)) {
+            list.count += begins ? 1 : 0;
+            const key = `${list.key}[${list.count - 1}]`;
+            for (const [, of, what] of flow ? pairs : [[null, name, value]])
+                give(`${key}.${of}`, what, number);
         } else if (indent && value === "") {
-            list = { key: `${group}.${name}`, depth: indent.length, count: 0 };
+            list = { key: `${group}.${name}`, depth: indent, count: 0 };
         } else {
             list = null;
-            give(indent ? `${group}.${name}` : name, value, index + 1);
+            give(indent ? `${group}.${name}` : name, value, number);
         }
     });
     return { ...scene };

@@ -20,13 +20,15 @@ const EN = {
     numbers: "What the bead does",
     wait: "computing …", waitShare: (percent) => `computing … ${percent} %`,
     settledLess: "The turns before the picture were cut short, because they took too long.",
+    recordedEnd: "The run ends here. Play shows it again.",
+    bead: (i) => `bead ${i}`,
     left: { edge: "The bead has left the plate. Press Restart.", lift: "The load on the plate has vanished: the bead jumps. Press Restart." },
     colour: "Colour of the trail", trailTurns: "Length of the trail (turns of the magnet)", arrows: "Arrows",
     arrowNames: { moment: "moment", field: "field", friction: "friction", load: "load" },
     quantities: {
         nz: "pole up or down (±1)", r: "distance r", field: "field |B|", slip: "slip of the contact", speed: "speed",
         load: "load on the plate", use: "use of static friction", sticks: "slips or sticks", angle: "angle of moment and field",
-        spin: "spin about the moment", time: "time",
+        spin: "spin about the moment", time: "time", z: "height of the centre",
     },
     plots: { phi: "Over the angle", sweep: "Over the speed", path: "Moment" },
     plotLabels: {
@@ -84,7 +86,7 @@ const EN = {
     live: (turns, seconds) => `turn ${turns} · ${seconds} s`,
     rows: {
         mean_r: "mean distance from the axis", std_r: "swing of the distance (root mean square)", bead: "bead circles", festoons: "festoons a lap", angle: "moment against field, at most",
-        sticking: "contact at rest", symmetry: "symmetry", slip: "slip of the contact (root mean square)",
+        sticking: "contact at rest", symmetry: "symmetry", slip: "slip of the contact (root mean square)", height: "mean height over the rotor's middle", touching: "in touch at the end", impacts: "lost in impacts",
     },
     symmetries: { S1: "one pole draws the path (S1)", S2: "both poles alike draw it (S2)" },
     against: "against the magnet", along: "with the magnet", or: "or",
@@ -94,9 +96,12 @@ const EN = {
         "counter-rotating": (m) => `Counter-rotating: the bead circles against the magnet, once every ${m.turns} turns${m.festoons === null ? "" : `, and draws ${m.festoons} festoons a lap`}.`,
         corotating: (m) => `Corotating: the bead circles slowly with the magnet, which overtakes it, once every ${m.turns} turns.`,
         chaotic: (m) => `Chaotic: the motion never repeats itself, mean distance ${m.r} mm.`,
+        levitating: () => "Levitating: it floats, and nothing touches it.",
+        touched: () => "Touched: it falls on the magnet.",
+        lost: () => "Lost: it flies away.",
         ejected: () => "Ejected: the bead leaves the plate.",
         lifted: () => "Lifted: the load vanishes and the bead jumps, which this model does not follow.",
-        undecided: (m) => (m.free ? `Without friction nothing calms the bead: it wanders, ${m.r} mm from the axis on average, and never forgets how it began.`
+        undecided: (m) => (m.oneOff ? "This drive leaves the bead no name for what it does." : m.free ? `Without friction nothing calms the bead: it wanders, ${m.r} mm from the axis on average, and never forgets how it began.`
             : "Undecided: this run does not show what the motion is; a longer one may."),
     },
 };
@@ -115,6 +120,22 @@ function twoDiscs() {
     return scene;
 }
 
+/* A vector of a scene. */
+const vector = (key, numbers) => Object.fromEntries(numbers.map((number, i) => [`${key}[${i}]`, number]));
+
+/* A rotor of 19 mm whose moment is raised by 5 degrees, and a floater above it (docs/levitation.md). */
+const LEVITATION = {
+    "magnet.shape": "parts", "magnet.parts[0].kind": "sphere", ...vector("magnet.parts[0].centre", ["0", "0", "0"]), "magnet.parts[0].size[0]": "19 mm",
+    ...vector("magnet.parts[0].remanence", ["1.2 T", "0", "0"]), ...vector("magnet.parts[0].rotation", ["5", "0", "-1", "0"]),
+    "drive.frequency": "200 Hz", "bead.radius": "6.35 mm", "bead.density": "7500", "bead.remanence": "1.2 T", "plate.shape": "none", "plate.radius": "100 mm",
+    "medium.drag_rate": "10 1/s", "medium.spin_drag_rate": "10 1/s", ...vector("start.position", ["0", "0", "23.021 mm"]), ...vector("start.n", ["0", "0", "1"]),
+    "start.spin": "rest", "run.duration": "1.5 s", "run.samples": "32",
+};
+const WAVE = {
+    "magnet.shape": "parts", "drive.waveform": "wave", "drive.frequency": "2 Hz", "wave.length": "60 mm", "wave.amplitude": "2 mT", "bead.radius": "2.5 mm", "bead.mass": "0.5 g",
+    "bead.remanence": "1.2 T", "plate.radius": "10 m", ...vector("start.position", ["0", "0", "2.5 mm"]), "start.spin": "rest", "run.duration": "20 s",
+};
+
 /* An experiment: scene and view. */
 export const PRESETS = [
     { id: "locked", settle: 30, name: "Locked, 3 Hz", scene: { "drive.frequency": "3 Hz" }, view: { "ui.slow": "5", "ui.camera": "free" } },
@@ -127,6 +148,14 @@ export const PRESETS = [
     { id: "dry", settle: 100, name: "Dry friction: slip and stick", scene: { "friction.law": "coulomb", "drive.frequency": "10.7 Hz" },
         view: { "ui.slow": "50", "ui.camera": "bead", "ui.colour": "sticks", "ui.arrows": "friction" } },
     { id: "discs", settle: 100, name: "Two real magnets, 15 Hz", scene: { ...twoDiscs(), "drive.frequency": "15 Hz" }, view: { "ui.slow": "50", "ui.camera": "free" } },
+    { id: "walker", name: "Two beads: a walker", scene: { "drive.frequency": "30 Hz", "contact.pair_rate": "312.5 1/s", "beads[0].start.phi": "3 deg", "beads[1].start.phi": "40 deg",
+        "run.periods": "100", "run.discard": "50" }, view: { "ui.slow": "30", "ui.camera": "free", "ui.trail": "4" } },
+    { id: "opposite", name: "Two beads, opposite", scene: { "drive.frequency": "30 Hz", "beads[0].start.phi": "3 deg", "beads[1].start.phi": "183 deg", "run.periods": "100", "run.discard": "50" },
+        view: { "ui.slow": "30", "ui.camera": "free", "ui.trail": "4" } },
+    { id: "levitation", name: "Levitation", scene: LEVITATION, view: { "ui.slow": "100", "ui.camera": "free", "ui.trail": "20", "ui.arrows": "moment" } },
+    { id: "bowl", name: "In a bowl", scene: { "plate.shape": "bowl", "plate.bowl_radius": "150 mm", "start.r": "0.9", "run.periods": "100", "run.discard": "50" },
+        view: { "ui.slow": "20", "ui.camera": "free", "ui.colour": "z" } },
+    { id: "wave", name: "A travelling field", scene: WAVE, view: { "ui.slow": "3", "ui.camera": "free", "ui.arrows": "moment" } },
 ];
 
 /* The lesson: each step a state, a question with answers, what to look at, and why it is so.  `answer` is the place

@@ -18,6 +18,7 @@ export const QUANTITIES = {
     angle: { read: (row) => row[COLUMN.angle] * DEGREES, unit: "°" },
     spin: { read: (row, s) => row[COLUMN.spin] / s.seconds / (2 * Math.PI), unit: "Hz" },
     time: { read: (row) => row[COLUMN.time], unit: "s" },
+    z: { read: (row, s) => row[COLUMN.z] * s.mm, unit: "mm" },
 };
 
 /* Factors from the scaled units of a row to those that are shown. */
@@ -34,6 +35,7 @@ export class Trail {
         this.room = room;
         this.lab = new Float32Array(2 * room);
         this.turning = new Float32Array(2 * room);
+        this.height = new Float32Array(room);
         this.value = new Float32Array(room);
         this.samples = [];
         this.clear();
@@ -57,6 +59,7 @@ export class Trail {
             this.count += 1;
         this.lab[2 * at] = row[COLUMN.x];
         this.lab[2 * at + 1] = row[COLUMN.y];
+        this.height[at] = row[COLUMN.z];
         this.turning[2 * at] = row[COLUMN.r] * Math.cos(row[COLUMN.phi]);
         this.turning[2 * at + 1] = row[COLUMN.r] * Math.sin(row[COLUMN.phi]);
         this.value[at] = quantity.read(row, units);

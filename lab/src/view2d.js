@@ -2,7 +2,7 @@
 import { COLUMN } from "./core.js";
 import { magnetisation } from "./magnet.js";
 import { PALETTE } from "./trail.js";
-import { ARROWS, FRICTION, NORTH, SOUTH } from "./colours.js";
+import { ARROWS, FRICTION, NORTH, SOUTH, TOUCH } from "./colours.js";
 
 export class View2D {
     constructor(canvas) {
@@ -25,9 +25,9 @@ export class View2D {
         this.canvas.height = Math.round(height * this.ratio);
     }
 
-    draw({ row, trail, range, camera, arrows }) {
-        const { pen, canvas, setup } = this, riding = camera.mode === "magnet", close = camera.mode === "bead";
-        const phase = 2 * Math.PI * row[COLUMN.turns], x = row[COLUMN.x], y = row[COLUMN.y];
+    draw({ rows, trails, range, camera, arrows }) {
+        const { pen, canvas, setup } = this, row = rows[0], riding = camera.mode === "magnet", close = camera.mode === "bead";
+        const phase = 2 * Math.PI * row[COLUMN.magnet], x = row[COLUMN.x], y = row[COLUMN.y];
         const reach = (close ? 6 * setup.eps : Math.max(...setup.hull.map(([radius]) => radius))) / camera.place.zoom;
         const scale = Math.min(canvas.width, canvas.height) / (2 * reach);
         pen.setTransform(1, 0, 0, 1, 0, 0);
@@ -35,17 +35,43 @@ export class View2D {
         pen.fillRect(0, 0, canvas.width, canvas.height);
         pen.setTransform(scale, 0, 0, -scale, canvas.width / 2, canvas.height / 2);
         pen.rotate(-((camera.place.azimuth + 90) * Math.PI) / 180 - (riding ? phase : 0));
-        if (close)
+        if (close || setup.follows)
             pen.translate(-x, -y);
         this.plate(phase);
-        const places = riding ? trail.turning : trail.lab;
+        if (setup.wave)
+            this.wave(row, reach);
         pen.save();
         if (riding)
             pen.rotate(phase);
-        this.trail(trail, places, range);
+        trails.forEach((trail, i) => this.trail(trail, riding ? trail.turning : trail.lab, range, setup.colours?.[i]));
         pen.restore();
-        this.bead(row, x, y);
+        const order = rows.map((_, i) => i).sort((a, b) => rows[a][COLUMN.z] - rows[b][COLUMN.z]); /* the upper ones cover others */
+        order.forEach((i) => this.bead(rows[i], rows[i][COLUMN.x], rows[i][COLUMN.y], setup.radii[i], setup.colours?.[i]));
+        this.touches(rows);
         this.arrows(row, x, y, arrows);
+    }
+
+    /* Bands where a travelling field points up and down. */
+    wave(row, reach) {
+        const { pen, setup } = this, step = setup.wave.length / 24, x = row[COLUMN.x];
+        for (let at = step * Math.floor((x - 1.5 * reach) / step); at < x + 1.5 * reach; at += step) {
+            const up = -setup.wave.sign * Math.sin(2 * Math.PI * ((at + step / 2) / setup.wave.length - row[COLUMN.turns]));
+            pen.globalAlpha = 0.5 * Math.abs(up);
+            pen.fillStyle = up > 0 ? NORTH : SOUTH;
+            pen.fillRect(at, row[COLUMN.y] - 1.5 * reach, step, 3 * reach);
+        }
+        pen.globalAlpha = 1;
+    }
+
+    /* A dot where two beads touch. */
+    touches(rows) {
+        const { radii } = this.setup;
+        this.pen.fillStyle = TOUCH;
+        rows.forEach((row, i) => rows.slice(i + 1).forEach((other, k) => {
+            const j = i + 1 + k, share = radii[i] / (radii[i] + radii[j]);
+            if (Math.floor(row[COLUMN.touches] / 2 ** j) % 2)
+                this.circle(row[COLUMN.x] + share * (other[COLUMN.x] - row[COLUMN.x]), row[COLUMN.y] + share * (other[COLUMN.y] - row[COLUMN.y]), 0.18 * radii[i]).fill();
+        }));
     }
 
     plate(phase) {
@@ -58,9 +84,10 @@ export class View2D {
         for (const body of setup.bodies)
             this.body(body);
         pen.restore();
-        for (let i = 1; i * setup.ring < Math.min(setup.plateRadius, 3.2); ++i)
+        for (let i = 1; setup.plate !== "none" && i * setup.ring < Math.min(setup.plateRadius, 3.2); ++i)
             this.circle(0, 0, i * setup.ring).stroke();
-        this.circle(0, 0, setup.plateRadius).stroke();
+        if (setup.plate !== "none")
+            this.circle(0, 0, setup.plateRadius).stroke();
         if (this.points) {
             pen.strokeStyle = "#ffffff";
             pen.beginPath();
@@ -96,13 +123,13 @@ export class View2D {
         }
     }
 
-    trail(trail, places, range) {
+    trail(trail, places, range, own) {
         const { pen } = this, width = range[1] - range[0];
         pen.lineWidth = 0.022;
         for (let i = 1; i < trail.count; ++i) {
             const a = (trail.first + i - 1) % trail.room, b = (trail.first + i) % trail.room;
             const c = PALETTE[Math.floor(255 * Math.max(0, Math.min(1, (trail.value[b] - range[0]) / width)))];
-            pen.strokeStyle = `rgb(${c.map((v) => Math.round(255 * v)).join()})`;
+            pen.strokeStyle = own || `rgb(${c.map((v) => Math.round(255 * v)).join()})`;
             pen.beginPath();
             pen.moveTo(places[2 * a], places[2 * a + 1]);
             pen.lineTo(places[2 * b], places[2 * b + 1]);
@@ -111,29 +138,29 @@ export class View2D {
     }
 
     /* The bead from above: the side that its north pole faces is red, and a mark shows its turning. */
-    bead(row, x, y) {
-        const { pen, setup } = this, [nx, ny, nz] = row.subarray(COLUMN.n, COLUMN.n + 3), across = Math.hypot(nx, ny);
-        this.circle(x, y, setup.eps);
+    bead(row, x, y, radius, colour) {
+        const { pen } = this, [nx, ny, nz] = row.subarray(COLUMN.n, COLUMN.n + 3), across = Math.hypot(nx, ny);
+        this.circle(x, y, radius);
         pen.fillStyle = SOUTH;
         pen.fill();
         pen.save();
         pen.translate(x, y);
         pen.rotate(Math.atan2(ny, nx));
         pen.beginPath();
-        pen.arc(0, 0, setup.eps, -Math.PI / 2, Math.PI / 2);
-        pen.ellipse(0, 0, Math.abs(nz) * setup.eps, setup.eps, 0, Math.PI / 2, -Math.PI / 2, nz < 0);
+        pen.arc(0, 0, radius, -Math.PI / 2, Math.PI / 2);
+        pen.ellipse(0, 0, Math.abs(nz) * radius, radius, 0, Math.PI / 2, -Math.PI / 2, nz < 0);
         pen.fillStyle = NORTH;
         if (across > 1e-9 || nz > 0)
             pen.fill();
         pen.restore();
-        this.marks(row, x, y);
-        pen.lineWidth = 0.1 * setup.eps;
-        pen.strokeStyle = "#f7f3e8";
-        this.circle(x, y, setup.eps).stroke();
+        this.marks(row, x, y, radius);
+        pen.lineWidth = (colour ? 0.2 : 0.1) * radius;
+        pen.strokeStyle = colour || "#f7f3e8";
+        this.circle(x, y, radius).stroke();
     }
 
-    marks(row, x, y) {
-        const { pen, setup } = this, [a, b, c, w] = row.subarray(COLUMN.turn, COLUMN.turn + 4);
+    marks(row, x, y, radius) {
+        const { pen } = this, [a, b, c, w] = row.subarray(COLUMN.turn, COLUMN.turn + 4);
         const turned = ([p, q, r]) => {
             const t = [2 * (b * r - c * q), 2 * (c * p - a * r), 2 * (a * q - b * p)];
             return [p + w * t[0] + b * t[2] - c * t[1], q + w * t[1] + c * t[0] - a * t[2], r + w * t[2] + a * t[1] - b * t[0]];
@@ -142,12 +169,12 @@ export class View2D {
         for (const spot of [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1]]) {
             const p = turned(spot);
             if (p[2] > 0)
-                this.circle(x + setup.eps * p[0], y + setup.eps * p[1], 0.16 * setup.eps).fill();
+                this.circle(x + radius * p[0], y + radius * p[1], 0.16 * radius).fill();
         }
     }
 
     arrows(row, x, y, wanted) {
-        const { pen, setup } = this, e = setup.eps;
+        const { pen, setup } = this, e = setup.radii[0];
         const vectors = {
             moment: [3.2 * e * row[COLUMN.n], 3.2 * e * row[COLUMN.n + 1]],
             field: [3.2 * e * row[COLUMN.b] / setup.fieldScale, 3.2 * e * row[COLUMN.b + 1] / setup.fieldScale],

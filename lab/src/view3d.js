@@ -2,10 +2,11 @@
 import {
     AmbientLight, BufferAttribute, BufferGeometry, CanvasTexture, CircleGeometry, Color, ConeGeometry, CylinderGeometry,
     DirectionalLight, DoubleSide, DynamicDrawUsage, Group, Mesh, MeshBasicMaterial, MeshPhongMaterial, PerspectiveCamera,
-    PlaneGeometry, Quaternion, RingGeometry, Scene, SphereGeometry, SRGBColorSpace, Vector3, WebGLRenderer, BoxGeometry,
+    LatheGeometry, PlaneGeometry, Quaternion, RepeatWrapping, RingGeometry, Scene, SphereGeometry, SRGBColorSpace, Vector2, Vector3, WebGLRenderer,
+    BoxGeometry,
 } from "three";
 import { COLUMN } from "./core.js";
-import { ARROWS, FRICTION, LOAD, NORTH, SOUTH } from "./colours.js";
+import { ARROWS, FRICTION, LOAD, NORTH, SOUTH, TOUCH } from "./colours.js";
 import { PALETTE } from "./trail.js";
 
 const TRACK_ROOM = 20000, FOV = 34, OLD = 0.75, BACK = [0.2, 0.23, 0.28];
@@ -50,6 +51,23 @@ function shadowTexture() {
     return new CanvasTexture(canvas);
 }
 
+/* Bands where a travelling field points up and down, for one wave length. */
+function waveTexture() {
+    const canvas = document.createElement("canvas");
+    canvas.width = 256;
+    canvas.height = 1;
+    const pen = canvas.getContext("2d");
+    for (let i = 0; i < 256; ++i) {
+        const up = -Math.sin((2 * Math.PI * (i + 0.5)) / 256);
+        pen.globalAlpha = Math.abs(up);
+        pen.fillStyle = up > 0 ? NORTH : SOUTH;
+        pen.fillRect(i, 0, 1, 1);
+    }
+    const texture = new CanvasTexture(canvas);
+    texture.wrapS = RepeatWrapping;
+    return texture;
+}
+
 class Arrow {
     constructor(colour) {
         const material = new MeshPhongMaterial({ color: colour, emissive: colour, emissiveIntensity: 0.35 });
@@ -90,12 +108,13 @@ class Ribbon {
 
     /* `place(i)` and `colour(i)` for i below `count`. */
     fill(count, place, colour, width) {
-        let before = count > 1 ? place(0) : [0, 0], at = before;
+        let before = count > 0 ? place(0) : [0, 0, 0], at = before;
         for (let i = 0; i < count; ++i) {
             const after = i + 1 < count ? place(i + 1) : at;
             const dx = after[0] - before[0], dy = after[1] - before[1], length = Math.hypot(dx, dy) || 1;
             const sx = (-dy / length) * width, sy = (dx / length) * width;
-            this.places.set([at[0] + sx, at[1] + sy, 0.004, at[0] - sx, at[1] - sy, 0.004], 6 * i);
+            const z = at[2] ?? 0.004;
+            this.places.set([at[0] + sx, at[1] + sy, z, at[0] - sx, at[1] - sy, z], 6 * i);
             const c = colour(i);
             this.colours.set(c, 6 * i);
             this.colours.set(c, 6 * i + 3);
@@ -163,13 +182,11 @@ export class View3D {
         this.scene.add(this.turning);
         this.plate = new Group();
         this.scene.add(this.plate);
-        this.bead = new Mesh(new SphereGeometry(1, 64, 40), new MeshPhongMaterial({ map: beadTexture(), shininess: 70, specular: "#666666" }));
-        this.shadow = new Mesh(new PlaneGeometry(1, 1), new MeshBasicMaterial({ map: shadowTexture(), transparent: true, depthWrite: false }));
-        this.shadow.renderOrder = 3;
-        this.scene.add(this.bead, this.shadow);
-        this.ribbon = new Ribbon(room + 1);
-        this.ribbon.mesh.renderOrder = 2;
-        this.scene.add(this.ribbon.mesh);
+        this.room = room;
+        this.skin = new MeshPhongMaterial({ map: beadTexture(), shininess: 70, specular: "#666666" });
+        this.shade = new MeshBasicMaterial({ map: shadowTexture(), transparent: true, depthWrite: false });
+        this.beads = [];
+        this.dots = [];
         this.track = new Ribbon(TRACK_ROOM);
         this.track.mesh.visible = false;
         this.track.mesh.renderOrder = 2;
@@ -180,6 +197,53 @@ export class View3D {
         this.poleTurn = new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), new Vector3(0, 0, 1));
     }
 
+    /* As many beads as there are radii: ball, shadow, ribbon, and of several a ring in the bead's colour. */
+    provide(setup) {
+        while (this.beads.length < setup.radii.length) {
+            const bead = {
+                ball: new Mesh(new SphereGeometry(1, 64, 40), this.skin), shadow: new Mesh(new PlaneGeometry(1, 1), this.shade), ribbon: new Ribbon(this.room + 1),
+                ring: new Mesh(new RingGeometry(1.02, 1.16, 64), new MeshBasicMaterial({ side: DoubleSide })),
+            };
+            bead.shadow.renderOrder = 3;
+            bead.ribbon.mesh.renderOrder = 2;
+            this.scene.add(bead.ball, bead.shadow, bead.ribbon.mesh, bead.ring);
+            this.beads.push(bead);
+        }
+        this.beads.forEach(({ ball, shadow, ribbon, ring }, i) => {
+            const there = i < setup.radii.length;
+            ball.visible = ribbon.mesh.visible = there;
+            shadow.visible = there && setup.plate === "flat";
+            ring.visible = there && setup.colours !== null;
+            if (!there)
+                return;
+            ball.scale.setScalar(setup.radii[i]);
+            ring.scale.setScalar(setup.radii[i]);
+            shadow.scale.setScalar(3.2 * setup.radii[i]);
+            if (setup.colours)
+                ring.material.color.set(setup.colours[i]);
+        });
+    }
+
+    /* A bowl: a part of a sphere about the axis, as far as the plate goes. */
+    bowl(setup, material) {
+        const widest = Math.min(setup.plateRadius, 0.9 * setup.bowl, 2.2), profile = Array.from({ length: 33 }, (_, i) => {
+            const r = (widest * i) / 32;
+            return new Vector2(r, setup.bowl - Math.sqrt(setup.bowl ** 2 - r * r));
+        });
+        const mesh = new Mesh(new LatheGeometry(profile, 96), material);
+        mesh.rotation.x = Math.PI / 2;
+        return mesh;
+    }
+
+    /* The bands of a wave, which the picture goes along. */
+    bands(setup) {
+        const side = 80 * setup.eps, texture = waveTexture();
+        texture.repeat.x = side / setup.wave.length;
+        const mesh = new Mesh(new PlaneGeometry(side, side / 2), new MeshBasicMaterial({ map: texture, transparent: true, opacity: 0.75, side: DoubleSide, depthWrite: false }));
+        mesh.position.z = -0.01;
+        return { mesh, texture, side };
+    }
+
     /* Plate and magnet of a setup. */
     furnish(setup) {
         for (const group of [this.plate, this.magnet]) {
@@ -187,13 +251,17 @@ export class View3D {
             group.clear();
         }
         const glass = new MeshPhongMaterial({ color: "#cfe0ee", transparent: true, opacity: 0.2, side: DoubleSide, depthWrite: false });
-        const plate = new Mesh(new CircleGeometry(setup.plateRadius, 96), glass);
+        this.plate.visible = setup.plate !== "none";
+        this.wave = setup.wave ? this.bands(setup) : null;
+        if (this.wave)
+            this.plate.add(this.wave.mesh);
+        const plate = setup.plate === "bowl" ? this.bowl(setup, glass) : new Mesh(new CircleGeometry(setup.plateRadius, 96), glass);
         plate.renderOrder = 1;
         this.plate.add(plate);
         const line = new MeshBasicMaterial({ color: "#e8eef5", transparent: true, opacity: 0.28, side: DoubleSide, depthWrite: false });
-        for (let i = 1; i * setup.ring < Math.min(setup.plateRadius, 3.2); ++i) {
+        for (let i = 1; !setup.wave && i * setup.ring < Math.min(setup.plateRadius, 3.2); ++i) {
             const ring = new Mesh(new RingGeometry(i * setup.ring - 0.004, i * setup.ring + 0.004, 128), line);
-            ring.position.z = 0.001;
+            ring.position.z = 0.001 + (setup.plate === "bowl" && i * setup.ring < setup.bowl ? setup.bowl - Math.sqrt(setup.bowl ** 2 - (i * setup.ring) ** 2) : 0);
             ring.renderOrder = 1;
             this.plate.add(ring);
         }
@@ -201,8 +269,8 @@ export class View3D {
         this.plate.add(rim);
         for (const body of setup.bodies)
             this.magnet.add(halves(body));
-        this.bead.scale.setScalar(setup.eps);
-        this.shadow.scale.setScalar(3.2 * setup.eps);
+        rim.visible = setup.plate === "flat";
+        this.provide(setup);
         this.setup = setup;
     }
 
@@ -221,35 +289,72 @@ export class View3D {
         this.eye.updateProjectionMatrix();
     }
 
-    draw({ row, trail, range, camera, arrows }) {
-        const { eps } = this.setup, riding = camera.mode === "magnet";
-        const x = row[COLUMN.x], y = row[COLUMN.y];
-        this.turning.rotation.z = 2 * Math.PI * row[COLUMN.turns];
-        this.bead.position.set(x, y, eps);
-        const q = row.subarray(COLUMN.turn, COLUMN.turn + 4);
-        this.bead.quaternion.set(...q).multiply(this.poleTurn);
-        this.shadow.position.set(x, y, 0.006);
-        const places = riding ? trail.turning : trail.lab, c = range[1] - range[0];
-        const at = (i) => (trail.first + i) % trail.room;
-        const here = riding ? [row[COLUMN.r] * Math.cos(row[COLUMN.phi]), row[COLUMN.r] * Math.sin(row[COLUMN.phi])] : [x, y];
-        const colour = (i) => {
-            const value = trail.value[at(Math.min(i, trail.count - 1))];
-            const full = PALETTE[Math.floor(255 * Math.max(0, Math.min(1, (value - range[0]) / c)))] || PALETTE[0];
-            const age = 1 - i / (trail.count + 1), fresh = 1 - OLD * age * age; /* the oldest part fades */
-            return full.map((v, k) => fresh * v + (1 - fresh) * BACK[k]);
-        };
-        this.ribbon.fill(trail.count + 1, (i) => (i < trail.count ? [places[2 * at(i)], places[2 * at(i) + 1]] : here), colour, 0.011);
-        this.ribbon.mesh.rotation.z = riding ? this.turning.rotation.z : 0;
-        this.point(row, arrows);
-        const look = camera.look(row, eps, this.setup.hull, this.eye.aspect, FOV);
+    draw({ rows, trails, range, camera, arrows }) {
+        const row = rows[0], riding = camera.mode === "magnet";
+        this.turning.rotation.z = 2 * Math.PI * row[COLUMN.magnet];
+        const middle = this.setup.follows ? [row[COLUMN.x], row[COLUMN.y]] : undefined;
+        const look = camera.look(row, this.setup.radii[0], this.setup.hull, this.eye.aspect, FOV, middle);
         this.eye.position.set(...look.eye);
         this.eye.up.set(...look.up);
         this.eye.lookAt(...look.target);
+        rows.forEach((own, i) => this.showBead(this.beads[i], own, trails[i], range, riding, i));
+        if (this.wave) {
+            const { mesh, texture, side } = this.wave, x = row[COLUMN.x];
+            mesh.position.x = x;
+            mesh.position.y = row[COLUMN.y];
+            texture.offset.x = (x - side / 2) / this.setup.wave.length - row[COLUMN.turns] + (this.setup.wave.sign < 0 ? 0.5 : 0);
+        }
+        this.showTouches(rows);
+        this.point(row, arrows);
         this.renderer.render(this.scene, this.eye);
     }
 
+    showBead({ ball, shadow, ribbon, ring }, row, trail, range, riding, index) {
+        const { setup } = this, x = row[COLUMN.x], y = row[COLUMN.y], z = row[COLUMN.z];
+        ball.position.set(x, y, z);
+        ball.quaternion.set(...row.subarray(COLUMN.turn, COLUMN.turn + 4)).multiply(this.poleTurn);
+        shadow.position.set(x, y, 0.006);
+        ring.position.set(x, y, z);
+        ring.quaternion.copy(this.eye.quaternion);
+        const places = riding ? trail.turning : trail.lab, c = range[1] - range[0], low = setup.plate === "flat" ? undefined : setup.plate === "bowl" ? setup.radii[index] : 0;
+        const at = (i) => (trail.first + i) % trail.room, under = (height) => (low === undefined ? undefined : height - low + 0.004);
+        const here = [...(riding ? [row[COLUMN.r] * Math.cos(row[COLUMN.phi]), row[COLUMN.r] * Math.sin(row[COLUMN.phi])] : [x, y]), under(z)];
+        const own = setup.colours && new Color(setup.colours[index]).toArray();
+        const colour = (i) => {
+            const value = trail.value[at(Math.min(i, trail.count - 1))];
+            const full = own || PALETTE[Math.floor(255 * Math.max(0, Math.min(1, (value - range[0]) / c)))] || PALETTE[0];
+            const age = 1 - i / (trail.count + 1), fresh = 1 - OLD * age * age; /* the oldest part fades */
+            return full.map((v, k) => fresh * v + (1 - fresh) * BACK[k]);
+        };
+        ribbon.fill(trail.count + 1, (i) => (i < trail.count ? [places[2 * at(i)], places[2 * at(i) + 1], under(trail.height[at(i)])] : here), colour, 0.011);
+        ribbon.mesh.rotation.z = riding ? this.turning.rotation.z : 0;
+    }
+
+    /* A dot where two beads touch. */
+    showTouches(rows) {
+        const { radii } = this.setup;
+        let used = 0;
+        rows.forEach((row, i) => rows.slice(i + 1).forEach((other, k) => {
+            const j = i + 1 + k;
+            if (!(Math.floor(row[COLUMN.touches] / 2 ** j) % 2))
+                return;
+            if (used === this.dots.length) {
+                this.dots.push(new Mesh(new SphereGeometry(1, 16, 12), new MeshBasicMaterial({ color: TOUCH, depthTest: false })));
+                this.dots.at(-1).renderOrder = 4;
+                this.scene.add(this.dots.at(-1));
+            }
+            const dot = this.dots[used], share = radii[i] / (radii[i] + radii[j]);
+            dot.position.set(...["x", "y", "z"].map((name) => row[COLUMN[name]] + share * (other[COLUMN[name]] - row[COLUMN[name]])));
+            dot.scale.setScalar(0.18 * radii[i]);
+            used += 1;
+        }));
+        this.dots.forEach((dot, i) => {
+            dot.visible = i < used;
+        });
+    }
+
     point(row, wanted) {
-        const { eps } = this.setup, from = [row[COLUMN.x], row[COLUMN.y], eps];
+        const eps = this.setup.radii[0], from = [row[COLUMN.x], row[COLUMN.y], row[COLUMN.z]];
         const vectors = {
             moment: Array.from(row.subarray(COLUMN.n, COLUMN.n + 3), (v) => 3.2 * eps * v),
             field: Array.from(row.subarray(COLUMN.b, COLUMN.b + 3), (v) => (3.2 * eps * v) / this.setup.fieldScale),

@@ -132,14 +132,34 @@ const tests = {
             const page = await open("", { size });
             await described(page);
             const presets = await page.$$eval("#presets button", (buttons) => buttons.map((button) => button.dataset.preset));
-            assert.equal(presets.length, 8);
+            assert.equal(presets.length, 13);
             for (const preset of presets) {
                 await click(page, `[data-preset=${preset}]`);
                 await described(page);
                 assert.ok(await coloursOfView(page) > 12, `${preset}: the view is not blank`);
                 await picture(page, `${name}-preset-${preset}`);
             }
+            await click(page, "[data-preset=walker]");
+            const pair = await page.evaluate(() => {
+                const { lab } = window.festoonLab;
+                lab.play(false);
+                return [lab.rows.length, lab.trails.length, lab.settings.slow];
+            });
+            assert.deepEqual(pair, [2, 2, 30]);
+            await page.waitForFunction(() => window.festoonLab.lab.recording.done, { timeout: 0 });
+            const gone = await page.evaluate(() => {
+                const { lab } = window.festoonLab, before = lab.row[0];
+                const done = lab.advance(0.1);
+                lab.play(true);
+                return [Math.abs(lab.row[0] - before - 0.1) < 1e-9 && done > 0.09, lab.trails.every((trail) => trail.count > 100), document.getElementById("legend").textContent];
+            });
+            assert.deepEqual(gone, [true, true, "bead 0bead 1"]);
+            await page.evaluate(() => window.festoonLab.lab.advance(100));
+            assert.match(await page.$eval("#notice", (notice) => notice.textContent), /run ends here/);
+            await click(page, "#play");
+            assert.ok(await page.evaluate(() => window.festoonLab.lab.row[0] < 1 && window.festoonLab.lab.playing), "it begins again");
             await click(page, "[data-preset=four]");
+            assert.equal(await page.evaluate(() => window.festoonLab.lab.rows.length), 1);
             for (const camera of ["above", "free", "magnet", "bead"]) {
                 await click(page, `[data-camera=${camera}]`);
                 assert.equal(await page.$eval(`[data-camera=${camera}]`, (button) => button.getAttribute("aria-pressed")), "true");
@@ -304,7 +324,7 @@ const tests = {
         await page.keyboard.press("5");
         assert.equal((await state()).lesson, 0);
         const reached = new Set();
-        for (let i = 0; i < 60; ++i) {
+        for (let i = 0; i < 80; ++i) {
             await page.keyboard.press("Tab");
             reached.add(await page.evaluate(() => document.activeElement.id));
         }

@@ -154,7 +154,8 @@ fst_status fst_start_state(const fst_params *params, const fst_model *model, dou
     fst_params room;
     if (params->bead_count)
         return fst_fail(error, FST_BAD_INPUT, "beads",
-                        "this computation takes one bead, and the scene lists %d: leave beads out",
+                        "this computation takes one bead that no list holds, and the scene has a list of %d: "
+                        "leave beads out",
                         params->bead_count);
     const fst_status status =
         fst_start(fst_params_settled(params, &room), model, model->world.height, &start, error);

@@ -1,7 +1,7 @@
 """Several beads through the program: what a run tells, beside the numbers of an independent program (each with how it
 was made: DOP853 at a tolerance of 1e-10 to 1e-12, contacts as constraints), trajectories, and what is refused.
 
-tests: cli/run_beads.c cli/run_files.c cli/beads_report.c io/beads_text.c io/beads_file.c beads/scene.c"""
+tests: cli/run_beads.c cli/run_files.c cli/beads_report.c io/beads_sentence.c io/beads_text.c io/beads_file.c beads/scene.c"""
 import json
 import math
 import unittest
