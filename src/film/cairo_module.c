@@ -6,48 +6,17 @@
 
 #include "base/constants.h"
 #include "base/error.h"
-#include "film/frame.h"
+#include "film/cairo_words.h"
 
 struct fst_film_canvas {
     cairo_surface_t *surface;
     cairo_t *pen;
 };
 
-/* The colours of the figures (style.c): from light green to violet, and from blue over grey to vermilion. */
-static const double line_palette[][4] = {{0.0, 0.659, 0.859, 0.204}, {0.2, 0.290, 0.757, 0.427},
-                                         {0.4, 0.122, 0.631, 0.529}, {0.6, 0.176, 0.439, 0.557},
-                                         {0.8, 0.255, 0.267, 0.529}, {1.0, 0.267, 0.004, 0.329}};
-static const double diverging_palette[][4] = {{0.0, 0.071, 0.247, 0.549},
-                                              {0.25, 0.310, 0.525, 0.812},
-                                              {0.5, 0.741, 0.741, 0.741},
-                                              {0.75, 0.910, 0.537, 0.290},
-                                              {1.0, 0.690, 0.188, 0.0}};
-static const double north[3] = {0.835, 0.369, 0.0}, south[3] = {0.0, 0.447, 0.698};
-
 /* The bead's rim, which tells whether its contact sticks or slips or it flies (fst_contact_shown), and the
  * words for it. */
 static const double rims[][3] = {{0.2, 0.2, 0.2}, {0.0, 0.62, 0.45}, {0.90, 0.62, 0.0}, {0.0, 0.45, 0.70}};
 static const char *const contact_words[] = {"", ": it sticks", ": it slips", ": it flies"};
-
-static void set_shade(cairo_t *pen, int both_signs, double shade)
-{
-    const double(*palette)[4] = both_signs ? diverging_palette : line_palette;
-    int last = both_signs ? 4 : 5, i = 0;
-    shade = shade > 0.0 ? (shade < 1.0 ? shade : 1.0) : 0.0;
-    while (i < last - 1 && shade > palette[i + 1][0])
-        ++i;
-    double part = (shade - palette[i][0]) / (palette[i + 1][0] - palette[i][0]), c[3];
-    for (int k = 0; k < 3; ++k)
-        c[k] = palette[i][k + 1] + part * (palette[i + 1][k + 1] - palette[i][k + 1]);
-    cairo_set_source_rgb(pen, c[0], c[1], c[2]);
-}
-
-static void write_at(cairo_t *pen, double x, double y, double size, const char *text)
-{
-    cairo_set_font_size(pen, size);
-    cairo_move_to(pen, x, y);
-    cairo_show_text(pen, text);
-}
 
 /* ------------------------------------------------------------------ from above; the pen works in
  * mm, y upwards */
@@ -63,7 +32,7 @@ static void trace(cairo_t *pen, const double corners[][2], int count)
 static void paint_body(cairo_t *pen, const fst_magnet_body *body)
 {
     for (int pole = 0; pole < 2; ++pole) {
-        const double *colour = pole == 0 ? north : south;
+        const double *colour = pole == 0 ? fst_pen_north : fst_pen_south;
         trace(pen, body->poles[pole], body->pole_count[pole]);
         cairo_set_source_rgba(pen, colour[0], colour[1], colour[2], 0.22);
         cairo_fill(pen);
@@ -97,7 +66,7 @@ static void paint_wave(cairo_t *pen, const fst_film_layout *layout, const fst_fi
     cairo_pattern_set_extend(bands, CAIRO_EXTEND_REPEAT);
     for (int k = 0; k <= STOPS; ++k) {
         const double up = (layout->wave > 0.0 ? -1.0 : 1.0) * sin(2.0 * FST_PI * k / STOPS);
-        const double *colour = up > 0.0 ? north : south;
+        const double *colour = up > 0.0 ? fst_pen_north : fst_pen_south;
         cairo_pattern_add_color_stop_rgba(bands, (double)k / STOPS, colour[0], colour[1], colour[2],
                                           0.25 * fabs(up));
     }
@@ -106,22 +75,10 @@ static void paint_wave(cairo_t *pen, const fst_film_layout *layout, const fst_fi
     cairo_pattern_destroy(bands);
 }
 
-/* The greatest 1, 2 or 5 times a power of ten that is not above `most`. */
-static double round_length(double most)
-{
-    static const double steps[] = {1.0, 2.0, 5.0};
-    const double power = pow(10.0, floor(log10(most)));
-    double length = power;
-    for (size_t i = 0; i < sizeof steps / sizeof *steps; ++i)
-        if (steps[i] * power <= most)
-            length = steps[i] * power;
-    return length;
-}
-
 /* Marks on the plate, by which one sees the picture move. */
 static void paint_grid(cairo_t *pen, const fst_film_layout *layout, const double centre[2])
 {
-    const double step = round_length(0.5 * layout->reach), far = 1.5 * layout->reach;
+    const double step = fst_round_length(0.5 * layout->reach), far = 1.5 * layout->reach;
     cairo_set_source_rgb(pen, 0.85, 0.85, 0.85);
     cairo_set_line_width(pen, layout->reach / 300.0);
     for (int k = 0; k < 2; ++k)
@@ -162,7 +119,7 @@ static void paint_trail(cairo_t *pen, const fst_film_layout *layout, const fst_f
         if (bead->colour)
             cairo_set_source_rgb(pen, bead->colour[0], bead->colour[1], bead->colour[2]);
         else
-            set_shade(pen, layout->both_signs, bead->trail_shade[i]);
+            fst_pen_shade(pen, layout->both_signs, bead->trail_shade[i]);
         cairo_move_to(pen, sign * bead->trail_x[i], sign * bead->trail_y[i]);
         cairo_line_to(pen, sign * bead->trail_x[i + 1], sign * bead->trail_y[i + 1]);
         cairo_stroke(pen);
@@ -228,7 +185,7 @@ static void paint_marks(cairo_t *pen, const double turn[3][3], double radius, fs
         seen(turn, body, view, sign, &x, &y, &towards);
         if (towards <= 0.0)
             continue;
-        const double *colour = pole > 0 ? north : south;
+        const double *colour = pole > 0 ? fst_pen_north : fst_pen_south;
         cairo_save(pen);
         cairo_translate(pen, radius * x, radius * y);
         cairo_rotate(pen, atan2(y, x));
@@ -376,7 +333,8 @@ static void paint_slab(cairo_t *pen, const fst_part_shape *body, int is_round, d
     const double low = body->low - depth, high = body->high - depth;
     cairo_pattern_t *poles = upright ? cairo_pattern_create_linear(0.0, sign * low, 0.0, sign * high)
                                      : cairo_pattern_create_linear(sign * left, 0.0, sign * right, 0.0);
-    const double *end = towards > 0.0 ? north : south, *begin = towards > 0.0 ? south : north;
+    const double *end = towards > 0.0 ? fst_pen_north : fst_pen_south,
+                 *begin = towards > 0.0 ? fst_pen_south : fst_pen_north;
     cairo_pattern_add_color_stop_rgba(poles, 0.0, begin[0], begin[1], begin[2], 0.15 + 0.4 * fabs(towards));
     cairo_pattern_add_color_stop_rgba(poles, 1.0, end[0], end[1], end[2], 0.15 + 0.4 * fabs(towards));
     if (is_round)
@@ -489,98 +447,7 @@ static void paint_small(cairo_t *pen, const fst_film_layout *layout, const fst_f
     const fst_contact_shown contact = frame->beads[0].contact; /* untold of several */
     (void)snprintf(words, sizeof words, "%s%s", layout->seen_as,
                    frame->count == 1 ? contact_words[contact] : "");
-    write_at(pen, left + 2.0, top - 6.0, 0.024 * layout->height, words);
-}
-
-static void paint_scale_bar(cairo_t *pen, const fst_film_layout *layout, double scale)
-{
-    const double millimetres = round_length(layout->width / (6.0 * scale)); /* a sixth of the width */
-    double length = millimetres * scale, x = layout->width - 24.0 - length, y = layout->height - 24.0;
-    char words[32];
-    cairo_text_extents_t extents;
-    cairo_set_source_rgb(pen, 0.13, 0.13, 0.13);
-    cairo_set_line_width(pen, 3.0);
-    cairo_move_to(pen, x, y);
-    cairo_line_to(pen, x + length, y);
-    cairo_stroke(pen);
-    (void)snprintf(words, sizeof words, "%g mm", millimetres);
-    cairo_set_font_size(pen, 0.026 * layout->height);
-    cairo_text_extents(pen, words, &extents);
-    write_at(pen, layout->width - 24.0 - fmax(length, extents.x_advance), y - 8.0, 0.026 * layout->height,
-             words);
-}
-
-/* What the colours of the poles mean, and the arrow. */
-static void paint_key(cairo_t *pen, const fst_film_layout *layout)
-{
-    const double size = 0.024 * layout->height, x = 0.34 * layout->width, dot = 0.38 * size;
-    const char *const words[2] = {"north pole", "south pole"};
-    const int turns = layout->body_count && !layout->follows;
-    double y = layout->height - 14.0 - (turns ? 1.5 * size : 0.0), at = x;
-    for (int i = 0; i < 2; ++i) {
-        const double *colour = i == 0 ? north : south;
-        cairo_text_extents_t extents;
-        cairo_arc(pen, at + dot, y - 0.36 * size, dot, 0.0, 2.0 * FST_PI);
-        cairo_set_source_rgb(pen, colour[0], colour[1], colour[2]);
-        cairo_fill(pen);
-        cairo_set_source_rgb(pen, 0.35, 0.35, 0.35);
-        write_at(pen, at + 3.0 * dot, y, size, words[i]);
-        cairo_text_extents(pen, words[i], &extents);
-        at += 4.5 * dot + extents.x_advance;
-    }
-    if (!turns)
-        return;
-    write_at(pen, x, y + 1.5 * size, size, "arrow: the magnet turns so");
-}
-
-/* The numbers of the beads in their colours, and what rims and dots mean. */
-static void paint_bead_key(cairo_t *pen, const fst_film_layout *layout, const fst_film_frame *frame)
-{
-    const double size = 0.024 * layout->height, right = layout->width - 24.0;
-    const char *const words[2] = {"rim with gaps: in the air", "black dot: beads touch"};
-    const int shown = frame->count > FST_BEADS_MOST ? 0 : frame->count;
-    cairo_text_extents_t extents;
-    cairo_set_font_size(pen, size);
-    for (int i = 0; i < shown; ++i) {
-        const double *colour = frame->beads[i].colour, x = right - 1.5 * size * (shown - i);
-        char number[8];
-        (void)snprintf(number, sizeof number, "%d", i);
-        cairo_arc(pen, x + 0.75 * size, 16.0 + 0.7 * size, 0.66 * size, 0.0, 2.0 * FST_PI);
-        cairo_set_source_rgb(pen, colour[0], colour[1], colour[2]);
-        cairo_fill(pen);
-        cairo_set_source_rgb(pen, 1.0, 1.0, 1.0);
-        cairo_text_extents(pen, number, &extents);
-        write_at(pen, x + 0.75 * size - 0.5 * extents.x_advance, 16.0 + 1.06 * size, size, number);
-    }
-    cairo_set_source_rgb(pen, 0.35, 0.35, 0.35);
-    for (int i = 0; i < 2; ++i) {
-        cairo_text_extents(pen, words[i], &extents);
-        write_at(pen, right - extents.x_advance, 16.0 + (2.6 + 1.25 * i) * size, size, words[i]);
-    }
-}
-
-static void paint_colour_bar(cairo_t *pen, const fst_film_layout *layout)
-{
-    enum { STEPS = 64 };
-    double width = 0.3 * layout->width, x = layout->width - width - 24.0, y = 16.0,
-           size = 0.024 * layout->height;
-    for (int i = 0; i < STEPS; ++i) {
-        set_shade(pen, layout->both_signs, (i + 0.5) / STEPS);
-        cairo_rectangle(pen, x + i * width / STEPS, y, width / STEPS + 1.0, 10.0);
-        cairo_fill(pen);
-    }
-    char low[32], high[32];
-    cairo_text_extents_t extents;
-    /* Three digits, but 6020 and not 6.02e+03. */
-    (void)snprintf(low, sizeof low, fabs(layout->colour_low) < 1000.0 ? "%.3g" : "%.0f", layout->colour_low);
-    (void)snprintf(high, sizeof high, fabs(layout->colour_high) < 1000.0 ? "%.3g" : "%.0f",
-                   layout->colour_high);
-    cairo_set_source_rgb(pen, 0.13, 0.13, 0.13);
-    write_at(pen, x, y + 14.0 + size, size, low);
-    cairo_text_extents(pen, high, &extents);
-    write_at(pen, x + width - extents.x_advance, y + 14.0 + size, size, high);
-    cairo_text_extents(pen, layout->colour_label, &extents);
-    write_at(pen, x + width - extents.x_advance, y + 17.0 + 2.0 * size, size, layout->colour_label);
+    fst_pen_write(pen, left + 2.0, top - 6.0, 0.024 * layout->height, words);
 }
 
 /* ------------------------------------------------------------------ the table */
@@ -621,16 +488,16 @@ static void paint(fst_film_canvas *canvas, const fst_film_layout *layout, const 
     cairo_paint(pen);
     paint_whole(pen, layout, frame, scale);
     paint_small(pen, layout, frame);
-    paint_scale_bar(pen, layout, scale);
+    fst_pen_scale_bar(pen, layout, scale);
     if (layout->colour_label)
-        paint_colour_bar(pen, layout);
+        fst_pen_colour_bar(pen, layout);
     else
-        paint_bead_key(pen, layout, frame);
-    paint_key(pen, layout);
+        fst_pen_bead_key(pen, layout, frame);
+    fst_pen_key(pen, layout);
     cairo_set_source_rgb(pen, 0.13, 0.13, 0.13);
-    write_at(pen, 16.0, 14.0 + 0.028 * layout->height, 0.028 * layout->height, layout->title);
-    write_at(pen, 16.0, 22.0 + 0.054 * layout->height, 0.026 * layout->height, frame->clock);
-    write_at(pen, 16.0, 27.0 + 0.080 * layout->height, 0.026 * layout->height, layout->slower);
+    fst_pen_write(pen, 16.0, 14.0 + 0.028 * layout->height, 0.028 * layout->height, layout->title);
+    fst_pen_write(pen, 16.0, 22.0 + 0.054 * layout->height, 0.026 * layout->height, frame->clock);
+    fst_pen_write(pen, 16.0, 27.0 + 0.080 * layout->height, 0.026 * layout->height, layout->slower);
 }
 
 static const unsigned char *pixels(fst_film_canvas *canvas, int *stride)

@@ -1,7 +1,7 @@
 """Films of several beads and of worlds: every bead is where its trajectory has it, in its colour; one bead as a list of
 one keeps its film; what cannot be filmed is refused in words.
 
-tests: film/cast.c film/layout.c film/cairo_module.c film/camera.c io/bead_table.c cli/movie.c"""
+tests: film/cast.c film/layout.c film/cairo_module.c film/cairo_words.c film/camera.c io/bead_table.c cli/movie.c"""
 
 import math
 import os
