@@ -102,9 +102,7 @@ static void write_result(const table_writer *w, const char *key, double value, c
     if (isfinite(value) && of_beads && of_beads->names) {
         const char *name = fst_name_at(of_beads->names, (int)value, &length);
         (void)snprintf(text, sizeof text, "%.*s", (int)length, name);
-    } else if (isfinite(value) && strcmp(key, "regime") == 0)
-        (void)snprintf(text, sizeof text, "%s", fst_regime_name((fst_regime)value));
-    else if (isfinite(value) && strcmp(key, "symmetry") == 0)
+    } else if (isfinite(value) && strcmp(key, "symmetry") == 0)
         (void)snprintf(text, sizeof text, "%s", fst_symmetry_name((fst_symmetry)value));
     else if (isfinite(value))
         (void)fst_number_write(text, sizeof text,

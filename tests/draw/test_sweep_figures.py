@@ -116,8 +116,9 @@ class Maps(Figures):
 
     def test_choices_are_named(self):
         self.sweep("a.db", "model.dynamics=rigid,farago2020", "drive.frequency=10,12")
-        script, _ = self.cells("a.db", "--key", "mean_r")
+        script, cells = self.cells("a.db", "--key", "mean_r")
         self.assertIn("set ytics ('rigid' 0, 'farago2020' 1)", script)
+        self.assertEqual([cell[1] for cell in cells], [0, 0, 1, 1])
         # Choices between those that were swept have no place.
         laws = ["viscous", "rolling"]
         self.sweep("b.db", "friction.law=" + ",".join(laws), "drive.frequency=10,12")

@@ -175,6 +175,8 @@ class Points(RefineCase):
         grid = Grid((33,), 3, values)
         told = self.sweep("a.db", words, "--refine", "3", "--refine-by", "symmetry")
         self.check("a.db", grid, told, words)
+        lines = self.good("export", self.path("a.db"), "--csv", "--key", "symmetry").splitlines()[1:]
+        self.assertEqual({line.split(",")[1] for line in lines}, {"S1", "S2", ""})
         self.assertLess(told["computed"], 30)
         festoons = self.values(words, "festoons")  # known where the symmetry is
         self.assertEqual([value is None for value in festoons.values()], [value is None for value in values.values()])
