@@ -24,8 +24,24 @@ enum {
 }; /* ms; a second signal within this time is the same one: timeout(1), for example, sends it to the process and
       to its group */
 
-static void note_signal(int number)
+/* Where memory runs out, some libraries end the program (HDF5, the run-time library of Fortran), crash (HDF5,
+ * fontconfig) or raise SIGINT (OpenBLAS, where it gets no threads), and nothing that they answer tells it before.
+ * Then this is the last that is done. */
+static void break_down(int unused)
 {
+    static const char sentence[] =
+        "festoon: a library that this command uses broke down, mostly because memory ran out\n";
+    (void)unused;
+    (void)!write(STDERR_FILENO, sentence, sizeof sentence - 1);
+    _exit(1);
+}
+
+/* A signal that the program sends itself comes from a library. */
+static void note_signal(int number, siginfo_t *from, void *unused)
+{
+    (void)unused;
+    if (from->si_pid == getpid())
+        break_down(0);
     struct timespec time = {0, 0};
     (void)clock_gettime(CLOCK_MONOTONIC, &time);
     long long now = 1000LL * time.tv_sec + time.tv_nsec / 1000000 + 1, first = 0;
@@ -50,7 +66,7 @@ void terminal_prepare(void)
     keep_descriptor(STDERR_FILENO, O_RDONLY);
     /* The first signal is noted.  Another one, a quarter of a second later or more, ends the
      * program at once. */
-    struct sigaction action = {.sa_handler = note_signal};
+    struct sigaction action = {.sa_sigaction = note_signal, .sa_flags = SA_SIGINFO};
     (void)sigemptyset(&action.sa_mask);
     (void)sigaction(SIGINT, &action, NULL);
     (void)sigaction(SIGTERM, &action, NULL);
@@ -67,17 +83,6 @@ void terminal_prepare(void)
 }
 
 /* ---------------------------------------------------------------- libraries that break down */
-
-/* Where memory runs out, some libraries end the program (HDF5, the run-time library of Fortran) or crash
- * (HDF5, fontconfig), and nothing that they answer tells it before.  Then this is the last that is done. */
-static void break_down(int unused)
-{
-    static const char sentence[] =
-        "festoon: a library that this command uses broke down, mostly because memory ran out\n";
-    (void)unused;
-    (void)!write(STDERR_FILENO, sentence, sizeof sentence - 1);
-    _exit(1);
-}
 
 static atomic_int at_work;
 
