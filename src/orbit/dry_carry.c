@@ -69,7 +69,7 @@ fst_status fst_dry_carry(const fst_setup *setup, double tolerance, double durati
         o.atol[i] = tolerance;
     fst_status status = fst_flow_new(&setup->model, &o, y, &flow, error);
     if (status != FST_OK)
-        return status;
+        return fst_watch_end(setup->watch, status, error);
     for (int column = 0; column < FST_COLUMNS; ++column)
         for (int i = 0; i < FST_STATE_SIZE; ++i)
             b.d[column][i] = tangent[i][column];
