@@ -478,7 +478,17 @@ static fst_status open_canvas(const fst_film_layout *layout, fst_film_canvas **o
     return FST_OK;
 }
 
-static void paint(fst_film_canvas *canvas, const fst_film_layout *layout, const fst_film_frame *frame)
+static fst_status told(cairo_status_t status, fst_error *error)
+{
+    return status == CAIRO_STATUS_SUCCESS
+               ? FST_OK
+               : fst_fail(error, status == CAIRO_STATUS_NO_MEMORY ? FST_NO_MEMORY : FST_IO, "film",
+                          "a frame cannot be painted: %s", cairo_status_to_string(status));
+}
+
+/* After a failure a pen draws no more, and remembers it. */
+static fst_status paint(fst_film_canvas *canvas, const fst_film_layout *layout, const fst_film_frame *frame,
+                        fst_error *error)
 {
     cairo_t *pen = canvas->pen;
     int side = layout->width < layout->height ? layout->width : layout->height;
@@ -498,6 +508,7 @@ static void paint(fst_film_canvas *canvas, const fst_film_layout *layout, const 
     fst_pen_write(pen, 16.0, 14.0 + 0.028 * layout->height, 0.028 * layout->height, layout->title);
     fst_pen_write(pen, 16.0, 22.0 + 0.054 * layout->height, 0.026 * layout->height, frame->clock);
     fst_pen_write(pen, 16.0, 27.0 + 0.080 * layout->height, 0.026 * layout->height, layout->slower);
+    return told(cairo_status(pen), error);
 }
 
 static const unsigned char *pixels(fst_film_canvas *canvas, int *stride)
@@ -515,10 +526,7 @@ static cairo_status_t write_bytes(void *out, const unsigned char *bytes, unsigne
 static fst_status write_png(fst_film_canvas *canvas, FILE *out, fst_error *error)
 {
     const cairo_status_t status = cairo_surface_write_to_png_stream(canvas->surface, write_bytes, out);
-    if (status == CAIRO_STATUS_SUCCESS || status == CAIRO_STATUS_WRITE_ERROR)
-        return FST_OK;
-    return fst_fail(error, status == CAIRO_STATUS_NO_MEMORY ? FST_NO_MEMORY : FST_IO, "film",
-                    "a frame cannot be painted: %s", cairo_status_to_string(status));
+    return told(status == CAIRO_STATUS_WRITE_ERROR ? CAIRO_STATUS_SUCCESS : status, error);
 }
 
 FST_API extern const fst_film_module_table fst_film_module;

@@ -35,6 +35,7 @@ void fst_pen_write(cairo_t *pen, double x, double y, double size, const char *te
     cairo_set_font_size(pen, size);
     cairo_move_to(pen, x, y);
     cairo_show_text(pen, text);
+    cairo_set_scaled_font(pen, cairo_get_scaled_font(pen)); /* what failed in a font is the pen's failure too */
 }
 
 /* The greatest 1, 2 or 5 times a power of ten that is not above `most`. */

@@ -192,8 +192,9 @@ static fst_status make_frames(film *f, fst_error *error)
         double t = fst_film_motion_at(m, m->t);
         (void)snprintf(clock, sizeof clock, "t = %.4f s, turn %.2f", t / f->cast.params.friction_gamma, now);
         frame.clock = clock;
-        f->module->paint(f->canvas, &f->look.layout, &frame);
-        fst_status status = give_frame(f, i, error);
+        fst_status status = f->module->paint(f->canvas, &f->look.layout, &frame, error);
+        if (status == FST_OK)
+            status = give_frame(f, i, error);
         if (status == FST_OK)
             status = fst_tell(o->progress, (i + 1.0) / f->frames, "frames", error);
         if (status != FST_OK)

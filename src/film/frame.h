@@ -78,7 +78,8 @@ typedef struct fst_film_canvas fst_film_canvas;
 typedef struct fst_film_module_table {
     const char *version; /* FST_VERSION_STRING at the module's build; a module of another version is refused */
     fst_status (*open)(const fst_film_layout *layout, fst_film_canvas **canvas, fst_error *error);
-    void (*paint)(fst_film_canvas *canvas, const fst_film_layout *layout, const fst_film_frame *frame);
+    fst_status (*paint)(fst_film_canvas *canvas, const fst_film_layout *layout, const fst_film_frame *frame,
+                        fst_error *error);
     /* Rows of pixels from the top, four bytes a pixel in the order blue, green, red, unused, and `*stride`
      * bytes a row. */
     const unsigned char *(*pixels)(fst_film_canvas *canvas, int *stride);

@@ -167,7 +167,7 @@ int fst_database_begins(int descriptor)
 {
     char bytes[sizeof SIGNATURE];
     const ssize_t got = fst_read_at(descriptor, bytes, sizeof bytes, 0);
-    return got < 0 || (got == (ssize_t)sizeof bytes && memcmp(bytes, SIGNATURE, sizeof bytes) == 0);
+    return got == (ssize_t)sizeof bytes && memcmp(bytes, SIGNATURE, sizeof bytes) == 0;
 }
 
 fst_status fst_database_head(int descriptor, const char *path, int writable, char mark[FST_MARK_SIZE],

@@ -20,7 +20,7 @@ int fst_database_is_damage(int code);
  * name as it is.  The caller frees it. */
 fst_status fst_database_path(const char *path, char **absolute, fst_error *error);
 
-/* Whether a file begins as every database of SQLite does, or cannot be read. */
+/* Whether a file begins as every database of SQLite does. */
 int fst_database_begins(int descriptor);
 
 /* Check the first bytes of a file before SQLite sees it, because SQLite would change the journal of a foreign
