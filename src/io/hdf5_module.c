@@ -274,14 +274,26 @@ static void abandon(fst_hdf5_writer *writer)
 
 /* ---------------------------------------------------------------- reading */
 
+/* Whether HDF5 says that it got no memory. */
+static herr_t look_for_memory(unsigned place, const H5E_error2_t *trouble, void *found)
+{
+    (void)place;
+    *(int *)found |= trouble->min_num == H5E_NOSPACE || trouble->min_num == H5E_CANTALLOC;
+    return 0;
+}
+
 /* Read one column.  The first one sets the number of rows. */
 static fst_status read_column(hid_t file, const char *path, const char *name, int first, double **data,
                               size_t *rows, fst_error *error)
 {
     hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
-    if (set < 0)
-        return fst_fail(error, FST_BAD_INPUT, path,
-                        "the column %s is missing: this is no trajectory of festoon", name);
+    if (set < 0) {
+        int starved = 0;
+        (void)H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look_for_memory, &starved);
+        return starved ? fst_fail(error, FST_NO_MEMORY, path, "out of memory")
+                       : fst_fail(error, FST_BAD_INPUT, path,
+                                  "the column %s is missing: this is no trajectory of festoon", name);
+    }
     hid_t space = H5Dget_space(set), type = H5Dget_type(set);
     hsize_t length = 0;
     const char *problem = NULL;
