@@ -466,7 +466,7 @@ def is_named(words, told, command, out, given):
                                                                      out in lines[0])
 
 
-def report(campaign):
+def report(campaign, drawn):
     rows = [[fault, *row] for fault, row in campaign.tally.items()]
     rows.append(["together", *(sum(row[i] for row in campaign.tally.values()) for i in range(4))])
     names = ", ".join(f"`{command.name}`" for command in campaign.commands)
@@ -481,7 +481,7 @@ disk is full (or a quota used up) after so many bytes, at {PLACES} places over e
 truncation, opening, closing or reading fails; every write takes one byte; every second call is interrupted; the
 directory goes away between two writes. Besides: a limit of file sizes (`ulimit -f`), a real file system of 4 to
 512 KiB, a directory that cannot be written, two commands to one name at once, a command killed while it writes, and
-gnuplot and ffmpeg that are missing, fail, die half way, or report success without a whole file.
+gnuplot and ffmpeg that are missing, fail, die half way, or report success without a whole file.{drawn}
 
 A sweep's database is not replaced but goes on: after a fault the same command must finish it with the same rows. A
 folder of frames holds whole frames. A directory that cannot be synced is told (status 1) over a complete new file.
@@ -507,7 +507,8 @@ def main():
     with tempfile.TemporaryDirectory(prefix="festoon-faults-") as folder:
         campaign = Campaign(folder, given.command)
         cases = [case for command in campaign.commands for case in campaign.cases(command)]
-        if len(cases) > given.count:
+        possible = len(cases)
+        if possible > given.count:
             cases = random.Random(1).sample(cases, int(given.count))
         for case in cases:
             campaign.perform(case)
@@ -525,7 +526,8 @@ def main():
             if full:
                 campaign.small_disk()
         if given.write:
-            section.write("faults", report(campaign))
+            drawn = "" if full else f" {len(cases)} cases were drawn from {possible}; the small file system was left out."
+            section.write("faults", report(campaign, drawn))
         total = sum(row[0] for row in campaign.tally.values())
         print(f"{total} cases, {len(campaign.violations)} broken promises")
         return 1 if campaign.violations else 0

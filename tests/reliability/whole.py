@@ -410,9 +410,10 @@ file all or nothing; also when memory runs out half way.
 
 The attack: `tests/reliability/whole.py` runs each command and format undisturbed, and then again and again while one
 allocation fails (each of them, or {places} spread over all where there are more; {max(40, places // 10)} of commands that take long); while one write of an output fails, because the disk is full or broken; and while one read fails. What
-a command writes is compared with the undisturbed output, byte by byte (of HDF5: number by number). HDF5, fontconfig and the run-time
-library of Fortran end the program or crash where they get no memory: the program then says so, with status 1, and the
-next command that writes the file removes what was left of it, as after a kill.
+a command writes is compared with the undisturbed output, byte by byte (of HDF5: number by number). HDF5, fontconfig, OpenBLAS and the
+run-time library of Fortran end the program or crash where they get no memory: the program then says so, with status 1, and the
+next command that writes the file removes what was left of it, as after a kill. Pixman, which paints letters, leaves
+some out and tells nobody: a frame of a film may lack them.
 
 Memory:
 
