@@ -17,7 +17,7 @@ extern "C" {
 /* Increased when the same beads give other numbers than before; a sweep goes on only under the same version. */
 #define FST_BEADS_RESULTS_VERSION 2
 
-enum { FST_BEAD_NUMBERS = 12, FST_BEAD_TOUCHES = 36, FST_BEADS_EVENTS = 1000 };
+enum { FST_BEAD_TOUCHES = 36, FST_BEADS_EVENTS = 1000 };
 
 /* Names by rows, as in lists.def. */
 #define FST_BEAD_EVENT_LIST(ROW)                                                                               \
@@ -272,28 +272,13 @@ typedef struct fst_world_result {
 FST_API fst_status fst_world_run(const fst_params *params, const fst_beads_options *options,
                                  fst_world_result *result, fst_error *error);
 
-/* A place where a bead floats without a plate, at rest in the turning frame. */
-enum { FST_LEVITATION_DIRECTIONS = 11 }; /* in which it can move: |n| = 1 */
-typedef struct fst_levitation {
-    double state[FST_BEAD_NUMBERS]; /* in the turning frame; Z over the magnet's reference plane */
-    double height_mm;               /* from that plane along the axis, to either side */
-    double tilt_deg;                /* of n from the axis */
-    double circle_mm;               /* distance of the centre from the axis */
-    double gap_mm;                  /* between bead and magnet */
-    int stable, unstable;           /* eigenvalues on the right, and whether there is none */
-    int family; /* without a drag on W the spin W.n is conserved, and this is one of a family with all spins: the one
-                   without spin */
-    double eigenvalue_re[FST_LEVITATION_DIRECTIONS],
-        eigenvalue_im[FST_LEVITATION_DIRECTIONS]; /* 1/s, falling */
-    double residual;
-} fst_levitation;
-
 typedef struct fst_levitation_list {
     fst_levitation *states; /* stable ones first, then by height */
     size_t count;
 } fst_levitation_list;
 
-/* Find where a bead floats (plate.shape: none).  Free the list with fst_levitation_free(). */
+/* Find where a bead floats (plate.shape: none); fst_branch_follow() follows these places over a parameter.  Free the list
+ * with fst_levitation_free(). */
 FST_API fst_status fst_levitation_find(const fst_params *params, const fst_progress *progress,
                                        fst_levitation_list *list, fst_error *error);
 FST_API void fst_levitation_free(fst_levitation_list *list);
@@ -311,34 +296,6 @@ FST_API const fst_levitation *fst_levitation_best(const fst_params *params, cons
     ROW(FLOATS_AWAY, "leaves", "it goes away without a swing", VERMILION)
 typedef enum { FST_FLOATINGS(FST_ROW_ENUM) FST_FLOATING_COUNT } fst_floating;
 FST_API fst_floating fst_levitation_word(const fst_levitation *place);
-
-/* The same places over one parameter. */
-typedef struct fst_levitation_point {
-    double value; /* of the parameter */
-    int branch;
-    fst_levitation at;
-} fst_levitation_point;
-
-typedef struct fst_levitation_special {
-    fst_special_type type; /* fold or hopf */
-    fst_levitation_point point;
-} fst_levitation_special;
-
-typedef struct fst_levitation_branch {
-    char key[64];
-    double from, to;
-    fst_levitation_point *points; /* in order along each branch */
-    size_t point_count;
-    fst_levitation_special *specials;
-    size_t special_count;
-    int branches;
-} fst_levitation_branch;
-
-/* Follow them over a key with real values, from < to.  Free the branch with fst_levitation_branch_free(). */
-FST_API fst_status fst_levitation_follow(const fst_params *params, const char *key, double from, double to,
-                                         const fst_progress *progress, fst_levitation_branch *branch,
-                                         fst_error *error);
-FST_API void fst_levitation_branch_free(fst_levitation_branch *branch);
 
 /* The field of everything that makes one (magnet, parts that stand still, coils, a uniform field, a wave) at a time and
  * a place on the laboratory's axes, z over the magnet's reference plane; scaled.  grad[i][j] = dB_i/dx_j. */

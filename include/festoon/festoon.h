@@ -300,6 +300,10 @@ FST_API double fst_run_discard(const fst_params *params);
  * fst_world_run() of beads.h simulates it; NULL: there is none. */
 FST_API const char *fst_key_of_world(const fst_params *params);
 
+/* The key by which more than a magnet that turns steadily makes the field, or another frame is asked for; NULL: there is
+ * none, and nothing but the model is needed. */
+FST_API const char *fst_key_of_surroundings(const fst_params *params);
+
 /* The frame (fst_frame) in which such a bead is computed: the laboratory's, where something stands still or travels, or
  * where that is asked for; otherwise the magnet's. */
 FST_API int fst_frame_of_world(const fst_params *params);

@@ -82,7 +82,6 @@ FST_API char *fst_scene_json(const fst_params *params);
 FST_API char *fst_orbit_json(const fst_params *params, const fst_orbit *orbit, const fst_orbit *others,
                              size_t count);
 FST_API char *fst_levitation_json(const fst_params *params, const fst_levitation_list *list);
-FST_API char *fst_levitation_branch_json(const fst_params *params, const fst_levitation_branch *branch);
 FST_API char *fst_locked_json(const fst_params *params, double omega, const fst_locked_list *list);
 FST_API char *fst_branch_json(const fst_params *params, const fst_branch *branch);
 FST_API char *fst_lyapunov_json(const fst_params *params, const fst_lyapunov *lyapunov);

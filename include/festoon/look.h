@@ -100,6 +100,8 @@ typedef struct fst_observable_info {
     size_t offset; /* of the double in fst_branch_point */
 } fst_observable_info;
 FST_API const fst_observable_info *fst_branch_observable_at(int index);
+FST_API const char *
+fst_branch_observable(const fst_branch *branch); /* what its figure shows unless it is told */
 
 #ifdef __cplusplus
 }

@@ -107,8 +107,33 @@ FST_API void fst_locked_free(fst_locked_list *list);
 
 typedef enum { FST_BRANCH_KINDS(FST_ROW_ENUM) FST_BRANCH_COUNT } fst_branch_kind;
 FST_API const char *fst_branch_kind_name(fst_branch_kind kind);
+/* Of one bead in three dimensions: levitating, driven. */
+static inline int fst_branch_is_of_world(fst_branch_kind kind)
+{
+    return kind == FST_BRANCH_LEVITATING || kind == FST_BRANCH_DRIVEN;
+}
 typedef enum { FST_SPECIALS(FST_ROW_ENUM) FST_SPECIAL_COUNT } fst_special_type;
 FST_API const char *fst_special_name(fst_special_type type);
+
+/* Numbers of a bead in three dimensions: X Y Z vX vY vZ nX nY nZ WX WY WZ. */
+enum { FST_BEAD_NUMBERS = 12 };
+
+/* A place where a bead floats without a plate, at rest in the turning frame. */
+enum { FST_LEVITATION_DIRECTIONS = 11 }; /* in which it can move: |n| = 1 */
+typedef struct fst_levitation {
+    double state[FST_BEAD_NUMBERS]; /* in the turning frame; Z over the magnet's reference plane */
+    double position_m[3], w_per_s[3];
+    double height_mm;     /* from that plane along the axis, to either side */
+    double tilt_deg;      /* of n from the axis */
+    double circle_mm;     /* distance of the centre from the axis */
+    double gap_mm;        /* between bead and magnet */
+    int stable, unstable; /* eigenvalues on the right, and whether there is none */
+    int family; /* without a drag on W the spin W.n is conserved, and this is one of a family with all spins: the one
+                   without spin */
+    double eigenvalue_re[FST_LEVITATION_DIRECTIONS],
+        eigenvalue_im[FST_LEVITATION_DIRECTIONS]; /* 1/s, falling */
+    double residual;
+} fst_levitation;
 
 /* A point of a branch. */
 typedef struct fst_branch_point {
@@ -121,6 +146,9 @@ typedef struct fst_branch_point {
     int multipliers; /* 8 multipliers of an orbit, 9 eigenvalues of an equilibrium */
     double multiplier_re[FST_EIGENVALUE_COUNT], multiplier_im[FST_EIGENVALUE_COUNT];
     double state[FST_STATE_SIZE];
+    fst_levitation
+        levitation; /* of a place where a bead floats, which has no multipliers above; of a motion with the
+                                  drive's period its state alone, and above the nine greatest multipliers */
 } fst_branch_point;
 
 typedef struct fst_special {
@@ -187,8 +215,9 @@ typedef struct fst_branch_options {
 FST_API fst_branch_options fst_default_branch_options(void);
 
 /* Follow the counter-rotating family (the S2 branch both ways, the S1 branches that leave it, through r = 0 and
- * beyond), or every family of equilibria, or all of these, over a parameter; or the curves of special points
- * over two.  Free the branch with fst_branch_free(), also after FST_INTERRUPTED (from `progress`): it then
+ * beyond), or every family of equilibria, or all of these, or the places where a bead
+ * floats, or the motion with the drive's period to which the start leads, over a parameter; or the
+ * curves of special points over two.  Free the branch with fst_branch_free(), also after FST_INTERRUPTED (from `progress`): it then
  * holds what was found until then. */
 FST_API fst_status fst_branch_follow(const fst_params *params, const fst_branch_options *options,
                                      fst_branch *branch, fst_error *error);

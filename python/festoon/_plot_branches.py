@@ -17,7 +17,8 @@ def branch(b: Any, y: str = "mean_r", *, units: str = "given", ax: Any = None) -
         A `Branch`.
     y
         mean_r, mean_alpha_dot, mean_nz, festoons, min_r, period, phi_deg, slip, relaxation_time, swing_ratio; of a
-        special point that was followed over two parameters, "second" is the default.  "multipliers": those of the
+        special point that was followed over two parameters, "second" is the default, of places where a bead floats
+        height_mm (beside tilt_deg, circle_mm, gap_mm).  "multipliers": those of the
         orbits with the unit circle, or the eigenvalues of locked states.
     units
         "lab" (mm, s, Hz), "scaled" or "si"; "given": those of a laboratory where the parameter has them.
@@ -39,8 +40,7 @@ def branch(b: Any, y: str = "mean_r", *, units: str = "given", ax: Any = None) -
     names = ["multipliers"]
     while lib.fst_branch_observable_at(len(names) - 1):
         names.append(text_of(lib.fst_branch_observable_at(len(names) - 1).name))
-    if b.second_key and y == "mean_r":
-        y = "second"
+    y = text_of(lib.fst_branch_observable(b._branch)) if y == "mean_r" else y
     _choose(y, names, "y")
     made = ffi.new("fst_chart **")
     call(lib.fst_chart_of_branch, b._branch, y.encode(), units_of(units), ffi.NULL, 0, made)

@@ -698,7 +698,8 @@ class Bead(Parameters):
         Parameters
         ----------
         kind
-            counter (the counter-rotating family), locked (all families of equilibria), all.
+            counter (the counter-rotating family), locked (all families of equilibria), all, levitating (places where a bead
+            floats without a plate), or driven (the motion that repeats itself with the drive).
         progress
             True: a bar; or a function of (fraction, what).
         **keywords

@@ -4,7 +4,7 @@ import os
 from typing import Any, Dict, Iterable, List, Optional, Tuple, Union
 
 from ._errors import BadInput
-from ._native import call, ffi, lib, options_of, path_bytes, places_of, strings
+from ._native import call, ffi, lib, options_of, path_bytes, places_of, strings, text_of
 from ._quantities import units_of
 
 Path = Union[str, "os.PathLike[str]"]
@@ -91,7 +91,7 @@ def branch(
     path
         The picture.
     observable
-        What is drawn; None: mean_r.
+        What is drawn; None: mean_r, of places where a bead floats height_mm.
     units
         "given", "lab", "scaled" or "si".
     dots
@@ -105,7 +105,7 @@ def branch(
         Where gnuplot or the ending's converter is missing.
     """
     pairs = [float(number) for pair in dots for number in pair]
-    name = observable or ("second" if branches.second_key else "mean_r")
+    name = observable or text_of(lib.fst_branch_observable(branches._branch))
     call(
         lib.fst_figure_branch,
         branches._branch,

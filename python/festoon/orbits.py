@@ -380,8 +380,9 @@ class Special(_Single):
 
     @property
     def state(self) -> Any:
-        """X Y vX vY nX nY nZ WX WY WZ."""
-        return state_of(self._special.at.state)
+        """X Y vX vY nX nY nZ WX WY WZ; of a bead in a world with Z and vZ."""
+        at = self._special.at
+        return state_of(at.levitation.state if any(at.levitation.state) else at.state)
 
     def __reduce__(self) -> Any:
         return _special_again, (image_of(self._special), self.parameter)
@@ -419,7 +420,8 @@ class Branch(Told):
     """Families of orbits or of locked states over a parameter.
 
     `points` is an array over the library's memory, its fields those of fst_branch_point: value, omega, mean_r,
-    stable, branch, ...; the fields are attributes too.
+    stable, branch, ...; the fields are attributes too, and of places where a bead floats those of `levitation`:
+    height_mm, tilt_deg, circle_mm, gap_mm, ...
     """
 
     def __init__(self, branch: Any, bead: Optional[Bead]) -> None:
@@ -440,12 +442,15 @@ class Branch(Told):
 
     def __getattr__(self, name: str) -> Any:
         points = self.__dict__.get("points")
-        if points is None or name not in points.dtype.names:
-            raise AttributeError(name)
-        return points[name]
+        if points is not None and name in points.dtype.names:
+            return points[name]
+        if points is not None and self.kind == "levitating" and name in points["levitation"].dtype.names:
+            return points["levitation"][name]
+        raise AttributeError(name)
 
     def __dir__(self) -> List[str]:
-        return [*super().__dir__(), *self.points.dtype.names]
+        floats = self.points["levitation"].dtype.names if self.kind == "levitating" else ()
+        return [*super().__dir__(), *self.points.dtype.names, *floats]
 
     def __reduce__(self) -> Any:
         return _branch_again, (image_of(self._branch), self.bead)
@@ -465,7 +470,9 @@ class Branch(Told):
 
     @property
     def multipliers(self) -> Any:
-        """Multipliers or eigenvalues of each point, NaN beyond their number."""
+        """Multipliers or eigenvalues of each point, NaN beyond their number; of places where a bead floats in 1/s."""
+        if self.kind == "levitating":
+            return lent(self.eigenvalue_re + 1j * self.eigenvalue_im)
         values = self.points["multiplier_re"] + 1j * self.points["multiplier_im"]
         values[np.arange(values.shape[1]) >= self.points["multipliers"][:, None]] = np.nan
         return lent(values)

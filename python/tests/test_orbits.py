@@ -2,12 +2,15 @@
 
 import gc
 import math
+import pathlib
 import pickle
 
 import numpy as np
 import pytest
 
 import festoon as fs
+
+SCENES = pathlib.Path(__file__).resolve().parents[2] / "examples/worlds"
 
 
 def test_orbit():
@@ -52,3 +55,20 @@ def test_lyapunov():
     spectrum = fs.Bead(run__periods=120, run__discard=60).lyapunov()
     assert spectrum.exponents.shape == (9,) and np.all(np.diff(spectrum.exponents) <= 0)
     assert spectrum.exponents.sum() == pytest.approx(spectrum.divergence, abs=1e-3)
+
+
+def test_branch_of_levitation(tmp_path):
+    bead = fs.Bead(SCENES / "levitation.yaml")
+    branch = bead.branch(frequency=(155, 170), kind="levitating")
+    specials = {special.type: special.value for special in branch.specials}
+    assert specials == {"hopf": pytest.approx(158.8, abs=0.05), "fold": pytest.approx(162.1, abs=0.05)}
+    assert branch.multipliers.shape == (len(branch), 11) and branch.specials[0].state.shape == (12,)
+    branch.save(tmp_path / "branch.json")
+    read = fs.read(tmp_path / "branch.json")
+    assert np.array_equal(read.height_mm, branch.height_mm) and np.array_equal(read.multipliers, branch.multipliers)
+    assert np.array_equal(read.points["levitation"]["state"], branch.points["levitation"]["state"])
+    assert read.kind == "levitating" and "height_mm" in dir(read) and branch.to_dict() == pickle.loads(pickle.dumps(branch)).to_dict()
+    branch.figure(tmp_path / "branch.svg")
+    assert "distance from the magnet" in (tmp_path / "branch.svg").read_text()
+    pytest.importorskip("matplotlib")
+    assert "distance" in branch.plot().get_ylabel()

@@ -25,7 +25,7 @@ static double steps_per_turn(const fst_params *p, double otherwise)
 fst_status beads_of_scene(const fst_params *scene, const fst_beads_options *options, fst_params **beads,
                           fst_beads_options *said, fst_error *error)
 {
-    const int count = scene->bead_count;
+    const int count = beads_in_scene(scene);
     *beads = NULL;
     *said = *options;
     if (count < 1)
@@ -35,7 +35,10 @@ fst_status beads_of_scene(const fst_params *scene, const fst_beads_options *opti
         return fst_fail(error, FST_NO_MEMORY, "beads", "out of memory for %d beads", count);
     fst_status status = FST_OK;
     for (int bead = 0; bead < count && status == FST_OK; ++bead)
-        status = fst_params_of_bead(scene, bead, &(*beads)[bead], error);
+        if (scene->bead_count)
+            status = fst_params_of_bead(scene, bead, &(*beads)[bead], error);
+        else
+            (*beads)[bead] = *scene;
     said->pair_rate = given_or(options->pair_rate, scene->contact_pair_rate);
     said->chi = given_or(options->chi, scene->model_chi);
     if (scene->friction_law == FST_FRICTION_COULOMB)
@@ -53,7 +56,7 @@ fst_status fst_beads_run_scene(const fst_params *scene, const fst_beads_options 
     memset(result, 0, sizeof *result);
     fst_status status = beads_of_scene(scene, options, &beads, &said, error);
     if (status == FST_OK)
-        status = fst_beads_run(beads, scene->bead_count, &said, result, error);
+        status = fst_beads_run(beads, beads_in_scene(scene), &said, result, error);
     free(beads);
     return status;
 }

@@ -111,6 +111,9 @@ static fst_status check_dry(const fst_params *p, const fst_beads_options *option
 
 static fst_status check_apart(const beads_world *world, const double *state, fst_error *error)
 {
+    double at_start[BEADS_DIM] = {0.0}; /* with the time, which fields that change ask for */
+    if (world->surrounded && world->count <= FST_BEADS_MOST)
+        state = memcpy(at_start, state, (size_t)(FST_BEAD_NUMBERS * world->count) * sizeof *state);
     for (int i = 0; i < world->count; ++i) {
         const double gap = beads_plate_gap(world, i, state);
         int at_magnet;

@@ -1,4 +1,4 @@
-/* beads_orbits.c - festoon locked, orbit and branch of a scene that lists beads: one locked state, one orbit, one branch,
+/* beads_orbits.c - festoon locked, orbit and branch of a scene that lists beads, or of one bead in a bowl or a medium: one locked state, one orbit, one branch,
  * those to which the start leads. */
 #include "cli/beads_orbits.h"
 
@@ -13,8 +13,8 @@ static fst_status refuse(const arguments *given, const char *const *names, const
 {
     for (; *names; ++names)
         if (option_value(given, *names))
-            return fail(error, FST_BAD_INPUT, "", "--%s is for one bead, and the scene lists several: %s",
-                        *names, why);
+            return fail(error, FST_BAD_INPUT, "", "--%s is for one bead on a flat plate in air: %s", *names,
+                        why);
     return FST_OK;
 }
 
@@ -29,8 +29,9 @@ static void print_pairs(FILE *out, const char *title, const double *re, const do
 
 static void print_locked(FILE *out, const fst_beads_locked *l)
 {
-    (void)fprintf(out, "%d beads turn with the magnet, omega = %.10g: %s\n\n", l->count, l->omega,
-                  l->stable ? "stable" : "unstable");
+    (void)fprintf(out, l->count > 1 ? "%d beads turn with the magnet" : "the bead turns with the magnet",
+                  l->count);
+    (void)fprintf(out, ", omega = %.10g: %s\n\n", l->omega, l->stable ? "stable" : "unstable");
     (void)fprintf(out, "  %4s %14s %10s %14s  %26s %14s\n", "bead", "r (l)", "Phi (deg)", "z (l)", "n",
                   "load (weights)");
     for (int i = 0; i < l->count; ++i) {
@@ -136,7 +137,8 @@ fst_status branch_of_beads(const arguments *given, const fst_params *scene, cons
     fst_status status = refuse(given, of_one, "--json prints the branch of their locked state", error);
     if (status == FST_OK && o->kind != FST_BRANCH_LOCKED)
         status = fail(error, FST_BAD_INPUT, "--kind",
-                      "of several beads the locked state is followed over a parameter: --kind locked");
+                      "of several beads, or of one in a world, the locked state is followed over a parameter: "
+                      "--kind locked");
     if (status != FST_OK)
         return status;
     progress_begin(&line);

@@ -208,37 +208,6 @@ static void warn_of_ends(const fst_params *params, const fst_branch_options *o)
     }
 }
 
-/* Places where a bead floats. */
-static fst_status follow_levitation(const arguments *given, const fst_params *params,
-                                    const fst_branch_options *o, FILE *out, fst_error *error)
-{
-    static const char *const others[] = {"with", "output", "tolerance", "step"};
-    fst_levitation_branch branch;
-    progress_line line;
-    const fst_progress progress = {&line, progress_tell};
-    for (size_t i = 0; i < sizeof others / sizeof *others; ++i)
-        if (option_value(given, others[i]))
-            return fail(error, FST_BAD_INPUT, "", "--%s is not for --kind levitating", others[i]);
-    progress_begin(&line);
-    const fst_status status = fst_levitation_follow(params, o->key, o->from, o->to, &progress, &branch, error);
-    progress_end(&line);
-    if (status != FST_OK)
-        return status;
-    char *text = option_value(given, "json") ? fst_levitation_branch_json(params, &branch) : NULL;
-    if (!text) {
-        (void)fprintf(out, "%d branches, %zu points over %s\n\nspecial points\n", branch.branches,
-                      branch.point_count, branch.key);
-        for (size_t i = 0; i < branch.special_count; ++i) {
-            const fst_levitation_special *s = &branch.specials[i];
-            (void)fprintf(out, "  %-6s %s = %.8g  branch %d, %.5g mm from the magnet's plane\n",
-                          fst_special_name(s->type), branch.key, s->point.value, s->point.branch,
-                          s->point.at.height_mm);
-        }
-    }
-    fst_levitation_branch_free(&branch);
-    return option_value(given, "json") ? print_and_free(text, out, error) : FST_OK;
-}
-
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     fst_params params;
@@ -248,15 +217,17 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     fst_status status = read_scene(given, operand(given), &params, error);
     if (status == FST_OK)
         status = read_options(given, keys, &o, error);
-    if (status == FST_OK && params.bead_count)
+    const int in_world = status == FST_OK && fst_key_of_world(&params) && !fst_branch_is_of_world(o.kind);
+    if (status == FST_OK && (params.bead_count || in_world))
         return branch_of_beads(given, &params, &o, out, error);
     const char *path = option_value(given, "output");
     if (status == FST_OK && path)
         status = check_place(path, error);
     if (status != FST_OK)
         return status;
-    if (o.kind == FST_BRANCH_LEVITATING)
-        return follow_levitation(given, &params, &o, out, error);
+    if (o.kind == FST_BRANCH_LEVITATING && option_value(given, "tolerance"))
+        return fail(error, FST_BAD_INPUT, "--tolerance",
+                    "a place where a bead floats is solved for, not integrated: leave it out");
     warn_of_ends(&params, &o);
     progress_line line;
     const fst_progress progress = {&line, progress_tell};

@@ -112,7 +112,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     fst_status status = read_scene(given, operand(given), &params, error);
     if (status == FST_OK && params.plate_shape == FST_PLATE_NONE)
         return find_levitation(given, &params, out, error);
-    if (status == FST_OK && params.bead_count)
+    if (status == FST_OK && (params.bead_count || fst_key_of_world(&params)))
         return locked_beads(given, &params, out, error);
     if (status == FST_OK)
         status = fst_model_new(&params, &model, error);

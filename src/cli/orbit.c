@@ -116,10 +116,10 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     fst_params params;
     fst_orbit orbit;
     fst_status status = read_scene(given, operand(given), &params, error);
-    if (status == FST_OK && params.bead_count)
-        return orbit_of_beads(given, &params, out, error);
     if (status != FST_OK)
         return status;
+    if (params.bead_count || (fst_key_of_world(&params) && !fst_key_of_surroundings(&params)))
+        return orbit_of_beads(given, &params, out, error);
     warn_of_material(&params);
     if (fst_key_of_world(&params))
         return of_world(given, &params, out, error);

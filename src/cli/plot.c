@@ -29,7 +29,7 @@ static const option options[] = {
     {"observable", '\0', "NAME",
      "of a branch: mean_r, mean_alpha_dot, mean_nz, festoons, min_r, period, phi_deg, slip, multipliers; of "
      "curves\n"
-     "over two parameters: second"},
+     "over two parameters: second; of places where a bead floats: height_mm, tilt_deg, circle_mm, gap_mm"},
     {"runs", '\0', "FILE", "of a branch: draw dots over it, from documents of festoon run --json"},
     {"points", '\0', "DATA.csv",
      "of a sweep or a branch over the drive: lay measured points with errors over it, and tell chi^2"},
@@ -134,7 +134,7 @@ static fst_status plot_branch(const arguments *given, const char *path, const ch
     if (status != FST_OK)
         return status;
     if (!observable)
-        observable = branch.second_key[0] ? "second" : "mean_r";
+        observable = fst_branch_observable(&branch);
     if (runs)
         status = fst_run_dots_read(runs, branch.key, observable, &dots, &dot_count, error);
     if (status == FST_OK)

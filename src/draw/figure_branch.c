@@ -27,7 +27,16 @@ static const fst_observable_info OBSERVABLES[] = {
     {"slip", "l gamma", offsetof(fst_branch_point, slip)},
     {"relaxation_time", "1/gamma", offsetof(fst_branch_point, relaxation_time)},
     {"swing_ratio", "1", offsetof(fst_branch_point, swing_ratio)},
+    {"height_mm", "1", offsetof(fst_branch_point, levitation.height_mm)},
+    {"tilt_deg", "deg", offsetof(fst_branch_point, levitation.tilt_deg)},
+    {"circle_mm", "1", offsetof(fst_branch_point, levitation.circle_mm)},
+    {"gap_mm", "1", offsetof(fst_branch_point, levitation.gap_mm)},
 };
+
+const char *fst_branch_observable(const fst_branch *branch)
+{
+    return branch->second_key[0] ? "second" : branch->kind == FST_BRANCH_LEVITATING ? "height_mm" : "mean_r";
+}
 
 const fst_observable_info *fst_branch_observable_at(int index)
 {
@@ -96,6 +105,12 @@ static void put(columns *c, double x, double y)
     c->y[c->count++] = y;
 }
 
+/* By which a special point is known for that between two points. */
+static double place_of(const fst_branch *b, const fst_branch_point *p)
+{
+    return b->kind == FST_BRANCH_LEVITATING ? p->levitation.state[2] : p->mean_r;
+}
+
 /* Where the stability changes between two neighbouring points: at the special point there, if one is known;
  * otherwise half way.  A fold lies a little beyond both points, so the search extends to both sides by their
  * distance. */
@@ -103,12 +118,13 @@ static void put_border(columns *c, const fst_branch *b, const fst_branch_point *
                        const fst_observable_info *what)
 {
     const double x = 0.5 * (p->value + q->value), reach = 1.5 * fabs(p->value - q->value) + 1e-9;
-    const double r = 0.5 * (p->mean_r + q->mean_r), reach_r = 1.5 * fabs(p->mean_r - q->mean_r) + 1e-6;
+    const double here = place_of(b, p), there = place_of(b, q);
+    const double r = 0.5 * (here + there), reach_r = 1.5 * fabs(here - there) + 1e-6;
     const fst_special *best = NULL;
     for (size_t i = 0; i < b->special_count; ++i) {
         const fst_special *s = &b->specials[i];
         if (s->type != FST_SPECIAL_ORIGIN_CROSSING && fabs(s->value - x) < reach &&
-            fabs(s->at.mean_r - r) < reach_r && (!best || fabs(s->value - x) < fabs(best->value - x)))
+            fabs(place_of(b, &s->at) - r) < reach_r && (!best || fabs(s->value - x) < fabs(best->value - x)))
             best = s;
     }
     if (best && goes_on_to(what, p, &best->at) && goes_on_to(what, q, &best->at))
@@ -169,13 +185,24 @@ static void put_pieces(columns *c, const fst_branch *b, const fst_observable_inf
     }
 }
 
+/* Whether its points have eigenvalues, in gamma or, of levitation, in 1/s. */
+static int has_eigenvalues(const fst_branch *b)
+{
+    return b->kind == FST_BRANCH_LOCKED || b->kind == FST_BRANCH_LEVITATING;
+}
+
 static void put_multipliers(columns *c, const fst_branch *b, int stable)
 {
-    for (size_t i = 0; i < b->point_count; ++i)
-        for (int k = 0; k < b->points[i].multipliers; ++k)
-            if (b->points[i].stable == stable &&
-                (b->kind == FST_BRANCH_LOCKED || b->points[i].multipliers == FST_MULTIPLIER_COUNT))
-                put(c, b->points[i].multiplier_re[k], b->points[i].multiplier_im[k]);
+    for (size_t i = 0; i < b->point_count; ++i) {
+        const fst_branch_point *p = &b->points[i];
+        const fst_levitation *l = &p->levitation;
+        for (int k = 0; k < FST_LEVITATION_DIRECTIONS && p->stable == stable; ++k)
+            if (b->kind == FST_BRANCH_LEVITATING)
+                put(c, l->eigenvalue_re[k], l->eigenvalue_im[k]);
+            else if (k < p->multipliers &&
+                     (b->kind != FST_BRANCH_ALL || p->multipliers == FST_MULTIPLIER_COUNT))
+                put(c, p->multiplier_re[k], p->multiplier_im[k]);
+    }
 }
 
 /* Keep points that are given twice once; returns how many are left of the piece. */
@@ -317,7 +344,7 @@ static int add_diagram(fst_chart *chart, const fst_branch *b, const shown *s, co
 static int add_multipliers(const fst_branch *b, const shown *s, columns *c, fst_chart_curve *curves)
 {
     int count = 0;
-    for (int i = 0; i < CIRCLE && b->kind != FST_BRANCH_LOCKED; ++i)
+    for (int i = 0; i < CIRCLE && !has_eigenvalues(b); ++i)
         put(&c[2], cos(FST_TWO_PI * i / (CIRCLE - 1)), sin(FST_TWO_PI * i / (CIRCLE - 1)));
     put_multipliers(&c[0], b, 1);
     put_multipliers(&c[1], b, 0);
@@ -326,7 +353,7 @@ static int add_multipliers(const fst_branch *b, const shown *s, columns *c, fst_
     if (c[2].count > 0)
         style_curve(&curves[count++], &c[2], "unit circle: within it disturbances die away", FST_COLOUR_BLACK,
                     FST_CURVE_LINE);
-    const int many = b->kind == FST_BRANCH_LOCKED; /* nine eigenvalues a point, which lie on curves */
+    const int many = has_eigenvalues(b); /* so many a point that they lie on curves */
     style_curve(&curves[count++], &c[1], "of unstable points of the branch", FST_COLOUR_VERMILION,
                 many ? FST_CURVE_DOTS : FST_CURVE_OPEN_POINTS);
     style_curve(&curves[count++], &c[0], "of stable points", FST_COLOUR_BLUE,
@@ -392,9 +419,11 @@ static fst_status choose_axes(const fst_branch *b, fst_shown_units units, shown 
     if (s->what)
         s->x = fst_quantity_of_parameter(b->key, units, &scales);
     if (!s->what) {
-        const int rates = b->kind == FST_BRANCH_LOCKED;
-        s->x = fst_quantity_of_result("real part", rates ? "gamma" : "1", used, &scales);
-        s->y = fst_quantity_of_result("imaginary part", rates ? "gamma" : "1", used, &scales);
+        const char *unit = b->kind == FST_BRANCH_LOCKED ? "gamma" : "1";
+        const int per_second = b->kind == FST_BRANCH_LEVITATING;
+        s->x = fst_quantity_of_result(per_second ? "real part (1/s)" : "real part", unit, used, &scales);
+        s->y =
+            fst_quantity_of_result(per_second ? "imaginary part (1/s)" : "imaginary part", unit, used, &scales);
     } else if (strcmp(s->what->name, "second") == 0 && b->second_key[0]) {
         s->y = fst_quantity_of_parameter(b->second_key, units, &scales);
     } else {
@@ -412,8 +441,9 @@ static void make_title(const fst_branch *b, const shown *s, char *title, size_t 
     const fst_scales none = {NAN, NAN, NAN, NAN};
     (void)snprintf(over, sizeof over, "%s", fst_quantity_of_parameter(b->key, FST_SHOWN_AS_GIVEN, &none).label);
     over[strcspn(over, "(") - (strchr(over, '(') != NULL)] = '\0';
-    if (!s->what && b->kind == FST_BRANCH_LOCKED)
-        (void)snprintf(title, size, "Eigenvalues along the locked states");
+    if (!s->what && has_eigenvalues(b))
+        (void)snprintf(title, size, "Eigenvalues along the %s",
+                       b->kind == FST_BRANCH_LOCKED ? "locked states" : "places where the bead floats");
     else if (!s->what)
         (void)snprintf(title, size, "Multipliers along the branch, those up to 1.2");
     else if (b->second_key[0]) {
@@ -433,7 +463,7 @@ static fst_status arrange(fst_chart *chart, const fst_branch *b, const shown *s,
                           int count)
 {
     static const fst_chart_mark axis = {0.0, "left of it disturbances die away"};
-    const int circle = !s->what && b->kind != FST_BRANCH_LOCKED, rates = !s->what && !circle;
+    const int circle = !s->what && !has_eigenvalues(b), rates = !s->what && !circle;
     char title[256];
     make_title(b, s, title, sizeof title);
     fst_chart_panel *panel = fst_chart_keep(chart, sizeof *panel);
@@ -470,7 +500,7 @@ static fst_status fill(fst_chart *chart, const fst_branch *b, const shown *s, co
 {
     columns c[CURVES];
     fst_chart_curve *curves = fst_chart_keep(chart, CURVES * sizeof *curves);
-    const size_t most = b->point_count * (s->what ? 7 : FST_EIGENVALUE_COUNT) + b->special_count + CIRCLE;
+    const size_t most = b->point_count * (s->what ? 7 : FST_LEVITATION_DIRECTIONS) + b->special_count + CIRCLE;
     for (int i = 0; i < CURVES; ++i)
         if (!curves || !make_columns(chart, &c[i], most + dot_count))
             return FST_NO_MEMORY;

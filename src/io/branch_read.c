@@ -24,6 +24,7 @@ typedef struct reader {
     const char *key; /* the branch's parameter, which is also that of its special points */
     char place[48];  /* the object that is being read, as in "points[3]." */
     int branches;    /* every number of a branch is less */
+    fst_branch_kind kind;
     fst_status status;
     fst_error *error;
 } reader;
@@ -159,40 +160,70 @@ static void read_text(reader *r, const json_t *object, const char *key, char *ou
 
 /* ---------------------------------------------------------------- a point */
 
+static void read_list_of_pairs(reader *r, const char *key, const json_t *list, size_t count, double *res,
+                               double *ims)
+{
+    for (size_t i = 0; i < count; ++i) {
+        const json_t *pair = json_array_get(list, i);
+        const json_t *re = json_array_get(pair, 0), *im = json_array_get(pair, 1);
+        if (json_array_size(pair) != 2 || !(json_is_number(re) || json_is_null(re)) ||
+            !(json_is_number(im) || json_is_null(im)))
+            refuse(r, key, pair, "pairs of two numbers");
+        res[i] = json_is_number(re) ? json_number_value(re) : NAN;
+        ims[i] = json_is_number(im) ? json_number_value(im) : NAN;
+    }
+}
+
 static void read_pairs(reader *r, const json_t *object, fst_branch_point *p)
 {
     const json_t *found = json_object_get(object, "multipliers"),
                  *other = json_object_get(object, "eigenvalues");
     const char *key = other ? "eigenvalues" : "multipliers";
     const size_t count = json_array_size(other ? other : found);
-    if ((found && other) || !(json_is_array(other) ? count == FST_EIGENVALUE_COUNT
-                                                   : json_is_array(found) && count <= FST_MULTIPLIER_COUNT)) {
+    const size_t most = r->kind == FST_BRANCH_DRIVEN ? FST_EIGENVALUE_COUNT : FST_MULTIPLIER_COUNT;
+    if ((found && other) ||
+        !(json_is_array(other) ? count == FST_EIGENVALUE_COUNT : json_is_array(found) && count <= most)) {
         refuse(r, key, other ? other : found, "8 multipliers, or 9 eigenvalues instead, each of two numbers");
         return;
     }
     p->multipliers = (int)count;
-    for (size_t i = 0; i < count; ++i) {
-        const json_t *pair = json_array_get(other ? other : found, i);
-        const json_t *re = json_array_get(pair, 0), *im = json_array_get(pair, 1);
-        if (json_array_size(pair) != 2 || !(json_is_number(re) || json_is_null(re)) ||
-            !(json_is_number(im) || json_is_null(im)))
-            refuse(r, key, pair, "pairs of two numbers");
-        p->multiplier_re[i] = json_is_number(re) ? json_number_value(re) : NAN;
-        p->multiplier_im[i] = json_is_number(im) ? json_number_value(im) : NAN;
-    }
+    read_list_of_pairs(r, key, other ? other : found, count, p->multiplier_re, p->multiplier_im);
 }
 
-static void read_state(reader *r, const json_t *object, double state[FST_STATE_SIZE])
+static void read_numbers(reader *r, const json_t *object, const char *key, double *out, size_t count)
 {
-    const json_t *found = json_object_get(object, "state");
-    int fit = json_array_size(found) == FST_STATE_SIZE;
-    for (size_t i = 0; i < FST_STATE_SIZE; ++i) {
+    const json_t *found = json_object_get(object, key);
+    char expected[32];
+    int fit = json_array_size(found) == count;
+    for (size_t i = 0; i < count; ++i) {
         const json_t *number = json_array_get(found, i);
         fit = fit && (json_is_number(number) || json_is_null(number));
-        state[i] = json_is_number(number) ? json_number_value(number) : NAN;
+        out[i] = json_is_number(number) ? json_number_value(number) : NAN;
     }
+    (void)snprintf(expected, sizeof expected, "%zu numbers", count);
     if (!fit)
-        refuse(r, "state", found, "10 numbers");
+        refuse(r, key, found, expected);
+}
+
+static void read_levitation(reader *r, const json_t *object, fst_levitation *l)
+{
+    const json_t *pairs = json_object_get(object, "eigenvalues_per_s");
+    read_numbers(r, object, "position_m", l->position_m, 3);
+    read_numbers(r, object, "w", l->w_per_s, 3);
+    read_number(r, object, "height_mm", &l->height_mm);
+    read_number(r, object, "tilt_deg", &l->tilt_deg);
+    read_number(r, object, "circle_mm", &l->circle_mm);
+    read_number(r, object, "gap_mm", &l->gap_mm);
+    l->stable = read_flag(r, object, "stable");
+    l->family = read_flag(r, object, "family");
+    if (json_array_size(pairs) != FST_LEVITATION_DIRECTIONS)
+        refuse(r, "eigenvalues_per_s", pairs, "11 pairs of two numbers");
+    read_list_of_pairs(r, "eigenvalues_per_s", pairs, FST_LEVITATION_DIRECTIONS, l->eigenvalue_re,
+                       l->eigenvalue_im);
+    for (int i = 0; i < FST_LEVITATION_DIRECTIONS && !l->stable; ++i)
+        l->unstable += l->eigenvalue_re[i] > 0.0;
+    read_number(r, object, "residual", &l->residual);
+    read_numbers(r, object, "state", l->state, FST_BEAD_NUMBERS);
 }
 
 static void read_point(reader *r, const json_t *object, fst_branch_point *p)
@@ -210,8 +241,16 @@ static void read_point(reader *r, const json_t *object, fst_branch_point *p)
     p->stable = read_flag(r, object, "stable");
     p->turns = read_integer(r, object, "turns", -MOST_BRANCHES, MOST_BRANCHES);
     p->branch = read_integer(r, object, "branch", 0, r->branches - 1);
+    p->levitation.height_mm = p->levitation.tilt_deg = p->levitation.circle_mm = p->levitation.gap_mm = NAN;
+    if (r->kind == FST_BRANCH_LEVITATING) {
+        read_levitation(r, object, &p->levitation);
+        return;
+    }
     read_pairs(r, object, p);
-    read_state(r, object, p->state);
+    if (r->kind == FST_BRANCH_DRIVEN)
+        read_numbers(r, object, "state", p->levitation.state, FST_BEAD_NUMBERS);
+    else
+        read_numbers(r, object, "state", p->state, FST_STATE_SIZE);
 }
 
 /* ---------------------------------------------------------------- special points, ends */
@@ -306,6 +345,7 @@ static void read_head(reader *r, const json_t *document, fst_branch *branch)
                            ? read_integer(r, document, "branches", 0, MOST_BRANCHES)
                            : count_branches(document);
     r->key = branch->key;
+    r->kind = branch->kind;
     r->branches = branch->branches;
 }
 

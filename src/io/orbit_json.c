@@ -89,16 +89,11 @@ static void put_locked(fst_json *json, const fst_locked *l)
 }
 
 /* The members of one. */
-static void put_levitation(fst_json *json, const fst_params *params, const fst_levitation *l)
+static void put_levitation(fst_json *json, const fst_levitation *l)
 {
-    double position[3], w[3];
-    for (int k = 0; k < 3; ++k) {
-        position[k] = l->state[k] * params->magnet_half_length;
-        w[k] = l->state[9 + k] * params->friction_gamma;
-    }
-    fst_json_reals(json, "position_m", position, 3);
+    fst_json_reals(json, "position_m", l->position_m, 3);
     fst_json_reals(json, "n", l->state + 6, 3);
-    fst_json_reals(json, "w", w, 3);
+    fst_json_reals(json, "w", l->w_per_s, 3);
     fst_json_real(json, "height_mm", l->height_mm);
     fst_json_real(json, "tilt_deg", l->tilt_deg);
     fst_json_real(json, "circle_mm", l->circle_mm);
@@ -107,6 +102,7 @@ static void put_levitation(fst_json *json, const fst_params *params, const fst_l
     fst_json_flag(json, "family", l->family);
     fst_json_pairs(json, "eigenvalues_per_s", l->eigenvalue_re, l->eigenvalue_im, FST_LEVITATION_DIRECTIONS);
     fst_json_real(json, "residual", l->residual);
+    fst_json_reals(json, "state", l->state, FST_BEAD_NUMBERS);
 }
 
 char *fst_levitation_json(const fst_params *params, const fst_levitation_list *list)
@@ -115,50 +111,12 @@ char *fst_levitation_json(const fst_params *params, const fst_levitation_list *l
     fst_json_open(&json, "states", '[');
     for (size_t i = 0; i < list->count; ++i) {
         fst_json_open(&json, NULL, '{');
-        put_levitation(&json, params, &list->states[i]);
+        put_levitation(&json, &list->states[i]);
         fst_json_close(&json);
     }
     fst_json_close(&json);
     fst_json_scene(&json, params);
     return fst_json_end(&json, JSON_INDENT(INDENT));
-}
-
-static void put_levitating(fst_json *json, const char *key, const fst_params *params,
-                           const fst_levitation_point *p)
-{
-    fst_json_open(json, key, '{');
-    fst_json_real(json, "value", p->value);
-    fst_json_integer(json, "branch", p->branch);
-    put_levitation(json, params, &p->at);
-    fst_json_close(json);
-}
-
-char *fst_levitation_branch_json(const fst_params *params, const fst_levitation_branch *branch)
-{
-    fst_json json = fst_json_begin('{');
-    fst_json_text(&json, "kind", fst_branch_kind_name(FST_BRANCH_LEVITATING));
-    fst_json_text(&json, "parameter", branch->key);
-    fst_json_real(&json, "from", branch->from);
-    fst_json_real(&json, "to", branch->to);
-    fst_json_integer(&json, "branches", branch->branches);
-    fst_json_open(&json, "specials", '[');
-    for (size_t i = 0; i < branch->special_count; ++i) {
-        const fst_levitation_special *s = &branch->specials[i];
-        fst_json_open(&json, NULL, '{');
-        fst_json_text(&json, "type", fst_special_name(s->type));
-        fst_json_text(&json, "parameter", branch->key);
-        fst_json_real(&json, "value", s->point.value);
-        fst_json_integer(&json, "branch", s->point.branch);
-        put_levitating(&json, "at", params, &s->point);
-        fst_json_close(&json);
-    }
-    fst_json_close(&json);
-    fst_json_open(&json, "points", '[');
-    for (size_t i = 0; i < branch->point_count; ++i)
-        put_levitating(&json, NULL, params, &branch->points[i]);
-    fst_json_close(&json);
-    fst_json_scene(&json, params);
-    return fst_json_end(&json, JSON_INDENT(1));
 }
 
 char *fst_locked_json(const fst_params *params, double omega, const fst_locked_list *list)
@@ -202,7 +160,7 @@ const fst_point_number fst_point_numbers[FST_POINT_NUMBER_COUNT] = {
     {"swing_ratio", offsetof(fst_branch_point, swing_ratio)},
 };
 
-static void put_point(fst_json *json, const char *key, const fst_branch_point *p)
+static void put_point(fst_json *json, const char *key, fst_branch_kind kind, const fst_branch_point *p)
 {
     fst_json_open(json, key, '{');
     for (int i = 0; i < FST_POINT_NUMBER_COUNT; ++i) {
@@ -211,12 +169,20 @@ static void put_point(fst_json *json, const char *key, const fst_branch_point *p
         fst_json_real(json, fst_point_numbers[i].key, value);
     }
     fst_json_text(json, "symmetry", fst_symmetry_name(p->symmetry));
-    fst_json_flag(json, "stable", p->stable);
     fst_json_integer(json, "turns", p->turns);
     fst_json_integer(json, "branch", p->branch);
-    fst_json_pairs(json, p->multipliers == FST_EIGENVALUE_COUNT ? "eigenvalues" : "multipliers",
-                   p->multiplier_re, p->multiplier_im, p->multipliers);
-    fst_json_reals(json, "state", p->state, FST_STATE_SIZE);
+    if (kind == FST_BRANCH_LEVITATING) {
+        put_levitation(json, &p->levitation);
+    } else if (kind == FST_BRANCH_DRIVEN) {
+        fst_json_flag(json, "stable", p->stable);
+        fst_json_pairs(json, "multipliers", p->multiplier_re, p->multiplier_im, p->multipliers);
+        fst_json_reals(json, "state", p->levitation.state, FST_BEAD_NUMBERS);
+    } else {
+        fst_json_flag(json, "stable", p->stable);
+        fst_json_pairs(json, p->multipliers == FST_EIGENVALUE_COUNT ? "eigenvalues" : "multipliers",
+                       p->multiplier_re, p->multiplier_im, p->multipliers);
+        fst_json_reals(json, "state", p->state, FST_STATE_SIZE);
+    }
     fst_json_close(json);
 }
 
@@ -240,7 +206,7 @@ static void put_specials(fst_json *json, const char *key, const fst_branch *bran
                       : s->criticality < 0 ? "subcritical"
                                            : NULL);
         fst_json_place(json, "born", s->born);
-        put_point(json, "at", &s->at);
+        put_point(json, "at", branch->kind, &s->at);
         fst_json_close(json);
     }
     fst_json_close(json);
@@ -286,7 +252,7 @@ char *fst_branch_json(const fst_params *params, const fst_branch *branch)
     fst_json_close(&json);
     fst_json_open(&json, "points", '[');
     for (size_t i = 0; i < branch->point_count; ++i)
-        put_point(&json, NULL, &branch->points[i]);
+        put_point(&json, NULL, branch->kind, &branch->points[i]);
     fst_json_close(&json);
     fst_json_scene(&json, params);
     return fst_json_end(&json, JSON_INDENT(1));

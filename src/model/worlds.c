@@ -82,9 +82,9 @@ fst_status fst_check_no_world(const fst_params *params, fst_error *error)
     const char *key = fst_key_of_world(params);
     if (!key)
         return FST_OK;
-    return fst_fail(
-        error, FST_BAD_INPUT, key,
-        "%s asks for a bead in three dimensions, which `run` and `locked` know; this computation is one "
-        "of a bead on a flat plate in air",
-        key);
+    return fst_fail(error, FST_BAD_INPUT, key,
+                    "%s asks for a bead in three dimensions, which run, locked, orbit and branch know; this "
+                    "computation is one "
+                    "of a bead on a flat plate in air",
+                    key);
 }

@@ -8,10 +8,6 @@
  * turns with the magnet, or looks the same from everywhere around the axis. */
 const char *fst_stands_still(const fst_params *params);
 
-/* The key by which more than a magnet that turns steadily makes the field, or another frame is asked for; NULL: there is
- * none, and nothing but the model is needed. */
-const char *fst_key_of_surroundings(const fst_params *params);
-
 /* FST_BAD_INPUT: the bead needs three dimensions (fst_key_of_world()). */
 fst_status fst_check_no_world(const fst_params *params, fst_error *error);
 

@@ -1,4 +1,4 @@
-/* beads_listed.c - locked states, orbits and branches of the beads that a scene lists. */
+/* beads_listed.c - locked states, orbits and branches of the beads that a scene lists, or of its one bead. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,7 +12,7 @@ fst_status fst_beads_locked_scene(const fst_params *scene, const fst_beads_optio
     memset(locked, 0, sizeof *locked);
     fst_status status = beads_of_scene(scene, options, &beads, &said, error);
     if (status == FST_OK)
-        status = fst_beads_locked_find(beads, scene->bead_count, &said, locked, error);
+        status = fst_beads_locked_find(beads, beads_in_scene(scene), &said, locked, error);
     free(beads);
     return status;
 }
@@ -25,7 +25,7 @@ fst_status fst_beads_orbit_scene(const fst_params *scene, const fst_beads_option
     memset(orbit, 0, sizeof *orbit);
     fst_status status = beads_of_scene(scene, options, &beads, &said, error);
     if (status == FST_OK)
-        status = fst_beads_orbit_find(beads, scene->bead_count, &said, orbit, error);
+        status = fst_beads_orbit_find(beads, beads_in_scene(scene), &said, orbit, error);
     free(beads);
     return status;
 }
@@ -38,7 +38,7 @@ fst_status fst_beads_branch_scene(const fst_params *scene, const fst_beads_optio
     memset(branch, 0, sizeof *branch);
     fst_status status = beads_of_scene(scene, options, &beads, &said, error);
     if (status == FST_OK)
-        status = fst_beads_branch_follow(beads, scene->bead_count, &said, key, from, to, branch, error);
+        status = fst_beads_branch_follow(beads, beads_in_scene(scene), &said, key, from, to, branch, error);
     free(beads);
     return status;
 }

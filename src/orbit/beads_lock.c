@@ -22,6 +22,9 @@
 
 enum { ITERATIONS = 40, SIDE = BEADS_NUMBERS + 1 };
 static const double FOUND = 1e-11, NEUTRAL = 1e-10; /* residual, and real parts that count as 0, over |Df| */
+static const double CLOSED = 1e-10, AT_UNIT = 1e-6,
+                    REACH = 1e-3; /* of a period: residual, log of a multiplier, and the
+                                                                     reach of differences */
 static const double STILL = 1e-8; /* a correction after which the next one is rounding, over the state */
 static const double SINGULAR = 1e-10, SPREAD = 1e-4;
 static const double FARTHEST = 0.4; /* that a correction takes a place, in radii, and a moment */
@@ -35,21 +38,29 @@ typedef struct newton {
 /* What is solved: in a world, or over a parameter. */
 typedef struct problem {
     const fst_lapack *lapack;
+    const beads_repeat *repeat;
     beads_world world;
     const beads_free_world *over; /* NULL: no parameter is free */
     double value, *way;
 } problem;
 
 typedef struct equations {
+    const beads_repeat *repeat; /* NULL: equilibria */
     const beads_world *world;
     const beads_modes *modes;
 } equations;
 
-/* d(state)/dt, a beads_map. */
+/* d(state)/dt, or the change over a period: a beads_map. */
 static fst_status rates(void *user, const double *y, double *out, fst_error *error)
 {
     const equations *of = user;
     double dy[BEADS_DIM];
+    if (of->repeat) {
+        const fst_status status = of->repeat->after(of->repeat->user, y, out, error);
+        for (int i = 0; i < FST_BEAD_NUMBERS * of->world->count; ++i)
+            out[i] -= y[i];
+        return status;
+    }
     beads_look look;
     beads_look_at(of->world, of->modes, y, &look);
     if (!look.solvable)
@@ -68,38 +79,42 @@ static double greatest_of(const double *v, int count)
 }
 
 /* d(rates)/d(value), over the parameter's scale. */
-static fst_status by_parameter(const beads_free_world *over, double value, const beads_lock *lock,
-                               double *change, fst_error *error)
+static fst_status by_parameter(const problem *p, const beads_lock *lock, double *change, fst_error *error)
 {
+    const beads_free_world *over = p->over;
+    const double value = p->value;
     beads_world beside;
-    equations of = {&beside, &lock->modes};
-    double below[BEADS_NUMBERS];
+    equations of = {p->repeat, &beside, &lock->modes};
+    double below[BEADS_NUMBERS], apart = 0.0;
     for (int end = 0; end < 2; ++end) {
         fst_status status =
             over->at(over->user, value + (end ? SPREAD : -SPREAD) * over->scale, &beside, error);
+        apart += status == FST_OK ? SPREAD : 0.0;
+        if (status == FST_BAD_INPUT) /* the parameter can have no such value */
+            status = over->at(over->user, value, &beside, error);
         if (status == FST_OK)
             status = rates(&of, lock->state, end ? change : below, error);
         if (status != FST_OK)
             return status;
     }
     for (int i = 0; i < FST_BEAD_NUMBERS * beside.count; ++i)
-        change[i] = (change[i] - below[i]) / (2.0 * SPREAD);
+        change[i] = (change[i] - below[i]) / apart;
     return FST_OK;
 }
 
 /* The matrix at lock->state, with the row and the column of a free parameter. */
 static fst_status fill(const problem *p, const beads_lock *lock, newton *n, fst_error *error)
 {
-    equations of = {&p->world, &lock->modes};
+    equations of = {p->repeat, &p->world, &lock->modes};
     beads_span(&p->world, &lock->modes, lock->state, NULL, &n->manifold);
     const int size = n->manifold.size, side = size + (p->over != NULL), numbers = n->manifold.numbers;
     double change[BEADS_NUMBERS], part[BEADS_NUMBERS];
-    fst_status status =
-        beads_derivative(&n->manifold, rates, &of, lock->state, BEADS_REACH, n->jacobian, error);
+    fst_status status = beads_derivative(&n->manifold, rates, &of, lock->state, p->repeat ? REACH : BEADS_REACH,
+                                         n->jacobian, error);
     if (status == FST_OK)
         status = rates(&of, lock->state, n->f, error);
     if (status == FST_OK && p->over)
-        status = by_parameter(p->over, p->value, lock, change, error);
+        status = by_parameter(p, lock, change, error);
     if (status != FST_OK)
         return status;
     beads_components(&n->manifold, n->f, n->right);
@@ -132,16 +147,18 @@ static fst_status find_spectrum(const problem *p, double scale, newton *n, beads
     if (p->lapack->eigen(size, n->matrix, re, im, NULL) != 0)
         return fst_fail(error, FST_NO_CONVERGENCE, "locked", "the eigenvalues were not found");
     for (int i = 0; i < size; ++i) {
-        pair[i][0] = re[i];
-        pair[i][1] = im[i];
+        const double of_map = 1.0 + re[i], period = p->repeat ? p->repeat->period : NAN;
+        pair[i][0] = p->repeat ? log(hypot(of_map, im[i])) / period : re[i];
+        pair[i][1] = p->repeat ? atan2(im[i], of_map) / period : im[i];
     }
+    const double neutral = p->repeat ? AT_UNIT / p->repeat->period : NEUTRAL * scale;
     qsort(pair, (size_t)size, sizeof *pair, by_real_part);
     lock->size = size;
     lock->unstable = 0;
     for (int i = 0; i < size; ++i) {
         lock->re[i] = pair[i][0];
         lock->im[i] = pair[i][1];
-        lock->unstable += pair[i][0] > NEUTRAL * scale;
+        lock->unstable += pair[i][0] > neutral;
     }
     return FST_OK;
 }
@@ -205,7 +222,7 @@ static fst_status iterate(problem *p, beads_lock *lock, newton *n, fst_error *er
         const double scale = 1.0 + greatest_of(n->jacobian, size * size);
         int rank;
         lock->residual = greatest_of(n->right, size);
-        if (lock->residual < FOUND * scale && correction < STILL)
+        if (lock->residual < (p->repeat ? CLOSED : FOUND) * scale && correction < STILL)
             return p->over && !find_way(p, n)
                        ? fst_fail(error, FST_NO_CONVERGENCE, "locked", "the curve has no direction")
                        : find_spectrum(p, scale, n, lock, error);
@@ -217,8 +234,9 @@ static fst_status iterate(problem *p, beads_lock *lock, newton *n, fst_error *er
         status = set_world(p, error);
     }
     return fst_fail(error, FST_NO_CONVERGENCE, "locked",
-                    "Newton's method found no state in which the beads turn with the magnet near the start "
-                    "(residual %.3g after %d iterations)",
+                    "Newton's method found no %s near the start (residual %.3g after %d iterations)",
+                    p->repeat ? "motion that repeats itself with the drive"
+                              : "state in which the beads turn with the magnet",
                     lock->residual, lock->iterations);
 }
 
@@ -232,17 +250,17 @@ static fst_status correct(problem *p, beads_lock *lock, fst_error *error)
     return status;
 }
 
-fst_status beads_lock_correct(const fst_lapack *lapack, const beads_world *world, beads_lock *lock,
-                              fst_error *error)
+fst_status beads_lock_correct(const fst_lapack *lapack, const beads_repeat *repeat, const beads_world *world,
+                              beads_lock *lock, fst_error *error)
 {
-    problem p = {.lapack = lapack, .world = *world};
+    problem p = {.lapack = lapack, .repeat = repeat, .world = *world};
     return correct(&p, lock, error);
 }
 
-fst_status beads_lock_across(const fst_lapack *lapack, const beads_free_world *over, double *value,
-                             beads_lock *lock, double way[BEADS_NUMBERS + 1], fst_error *error)
+fst_status beads_lock_across(const fst_lapack *lapack, const beads_repeat *repeat, const beads_free_world *over,
+                             double *value, beads_lock *lock, double way[BEADS_NUMBERS + 1], fst_error *error)
 {
-    problem p = {.lapack = lapack, .over = over, .value = *value, .way = way};
+    problem p = {.lapack = lapack, .repeat = repeat, .over = over, .value = *value, .way = way};
     const fst_status status = correct(&p, lock, error);
     *value = p.value;
     return status;

@@ -5,6 +5,14 @@
 #include "beads/manifold.h"
 #include "orbit/lapack.h"
 
+/* What is solved for in the place of equilibria: motions that repeat themselves.  Their eigenvalues are the exponents
+ * log(mu)/period of the multipliers mu. */
+typedef struct beads_repeat {
+    beads_map *after; /* the state after a period */
+    void *user;
+    double period;
+} beads_repeat;
+
 /* An equilibrium: the beads turn with the magnet, in one state of their contacts. */
 typedef struct beads_lock {
     double state[BEADS_NUMBERS];
@@ -27,14 +35,15 @@ typedef struct beads_free_world {
 
 /* Newton's method on the directions of the closed contacts, from lock->state and lock->modes, whose gaps and
  * moments need not be exact; then the eigenvalues.  Of a continuum the state nearest to the start is found.
- * FST_NO_CONVERGENCE: the guess was not good enough, or there is none. */
-fst_status beads_lock_correct(const fst_lapack *lapack, const beads_world *world, beads_lock *lock,
-                              fst_error *error);
+ * FST_NO_CONVERGENCE: the guess was not good enough, or there is none.  `repeat` unless it is NULL: of a motion that
+ * repeats itself. */
+fst_status beads_lock_correct(const fst_lapack *lapack, const beads_repeat *repeat, const beads_world *world,
+                              beads_lock *lock, fst_error *error);
 
 /* The same with the parameter free, *value: corrections are across `way`, a direction of the state's numbers and,
  * behind them, of the parameter over its scale.  Then `way` lies along the curve, with unit length. */
-fst_status beads_lock_across(const fst_lapack *lapack, const beads_free_world *over, double *value,
-                             beads_lock *lock, double way[BEADS_NUMBERS + 1], fst_error *error);
+fst_status beads_lock_across(const fst_lapack *lapack, const beads_repeat *repeat, const beads_free_world *over,
+                             double *value, beads_lock *lock, double way[BEADS_NUMBERS + 1], fst_error *error);
 
 /* The least load or force of a pressing contact, in units of the first bead's mass, and the least gap of an open one;
  * which: the contact, or -1 where there is none. */

@@ -35,7 +35,7 @@ static fst_status check(const fst_params *p, int count, const fst_beads_options 
     const char *still = fst_key_of_surroundings(p);
     if (still)
         return fst_fail(error, FST_BAD_INPUT, still,
-                        "locked states, orbits and branches of several beads need a magnet that turns steadily "
+                        "locked states, orbits and branches of beads need a magnet that turns steadily "
                         "and alone over a level plate, not %s",
                         still);
     if (p->friction_law != FST_FRICTION_VISCOUS && p->friction_law != FST_FRICTION_NONE)
@@ -90,7 +90,7 @@ static fst_status try_newton(const beads_scene *scene, const beads_flow *flow, b
     for (int k = 0; k < scene->world.contacts; ++k)
         if (lock->modes.contact[k] == BEADS_GRAZING)
             return fst_fail(error, FST_NO_CONVERGENCE, "locked", "a contact grazes");
-    const fst_status status = beads_lock_correct(scene->lapack, &scene->world, lock, error);
+    const fst_status status = beads_lock_correct(scene->lapack, NULL, &scene->world, lock, error);
     for (int i = 0; i < numbers; ++i)
         way[i] = i % FST_BEAD_NUMBERS < BEADS_V ? lock->state[i] - flow->step.y[i] : 0.0;
     if (status == FST_OK && !floats && greatest_of(&scene->world, way) > NEAR)

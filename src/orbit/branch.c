@@ -6,6 +6,7 @@
  *          tracer.c           a list of branches still to be followed; one after another, each both ways
  *            curve.c            point by point
  *              special.c          special points between; a branch that is born there goes on the list
+ *        world_branch.c     places where a bead floats, motions with the drive's period, by beads_curve.c
  *        special_curve.c    with two parameters: special points of one type, each followed as a curve over both
  *
  *                    .----- 1 ---- end            0 is followed first, from its start both ways;
@@ -25,7 +26,9 @@
 #include "base/listed.h"
 #include "base/number.h"
 #include "model/params.h"
+#include "model/worlds.h"
 #include "orbit/branch_list.h"
+#include "orbit/levitation.h"
 #include "orbit/special_curve.h"
 #include "orbit/tracer.h"
 
@@ -100,7 +103,7 @@ static fst_status check_effect(const char *field, const char *key, const fst_par
                 "no orbit and no locked state depends on %s: expected a parameter of the magnet, the "
                 "bead, the drive or the model",
                 key);
-    if (strcmp(key, "plate.gravity") != 0)
+    if (strcmp(key, "plate.gravity") != 0 || fst_key_of_world(params))
         return FST_OK;
     int matters;
     const fst_status status = ask_load(params, &matters, error);
@@ -155,9 +158,6 @@ static fst_status check(const fst_branch_options *o, const fst_params *params, f
     if (o->cookie != FST_BRANCH_OPTIONS_COOKIE)
         return fst_fail(error, FST_BAD_INPUT, "fst_branch_follow",
                         "the options were not made by fst_default_branch_options()");
-    if (o->kind == FST_BRANCH_LEVITATING)
-        WRONG("kind", "places where a bead floats have a branch of their own, over one parameter of a world "
-                      "without a plate");
     if (!isfinite(o->from) || !isfinite(o->to) || o->from == o->to)
         WRONG("from", "a branch needs a range with two different ends, not %g to %g", o->from, o->to);
     if (!(o->tolerance >= 1e-14 && o->tolerance <= 1e-6))
@@ -226,24 +226,9 @@ static fst_status begin_second(const fst_params *params, const fst_branch_option
     return FST_OK;
 }
 
-fst_status fst_branch_follow(const fst_params *params, const fst_branch_options *options, fst_branch *branch,
-                             fst_error *error)
+/* What a branch says of itself. */
+static void begin(const fst_params *params, const fst_branch_options *options, fst_branch *branch)
 {
-    memset(branch, 0, sizeof *branch);
-    double second_at;
-    fst_status status = check(options, params, error);
-    if (status == FST_OK)
-        status = begin_second(params, options, &second_at, error);
-    if (status != FST_OK)
-        return status;
-    fst_tracer *t = calloc(1, sizeof *t);
-    if (!t)
-        return fst_fail(error, FST_NO_MEMORY, "branch", "out of memory");
-    t->options = options;
-    t->out = branch;
-    t->follow_hopf = options->kind == FST_BRANCH_ALL;
-    fst_watch_begin(&t->watch, options->progress);
-    fst_watch_part(&t->watch, 0.0, options->second_key ? 0.5 : 1.0);
     branch->kind = options->kind;
     branch->from = options->from;
     branch->half_length = params->magnet_half_length;
@@ -256,6 +241,41 @@ fst_status fst_branch_follow(const fst_params *params, const fst_branch_options 
         branch->second_to = options->second_to;
         branch->followed = options->special;
     }
+}
+
+static fst_status finish(fst_status status, fst_branch *branch)
+{
+    branch->complete = status == FST_OK;
+    if (status != FST_OK && status != FST_INTERRUPTED)
+        fst_branch_free(branch);
+    else if (!fst_branch_is_of_world(branch->kind))
+        fst_branch_find_images(branch);
+    return status;
+}
+
+fst_status fst_branch_follow(const fst_params *params, const fst_branch_options *options, fst_branch *branch,
+                             fst_error *error)
+{
+    memset(branch, 0, sizeof *branch);
+    double second_at;
+    fst_status status = check(options, params, error);
+    if (status == FST_OK && fst_branch_is_of_world(options->kind)) {
+        begin(params, options, branch);
+        return finish(fst_follow_world(params, options, branch, error), branch);
+    }
+    if (status == FST_OK)
+        status = begin_second(params, options, &second_at, error);
+    if (status != FST_OK)
+        return status;
+    fst_tracer *t = calloc(1, sizeof *t);
+    if (!t)
+        return fst_fail(error, FST_NO_MEMORY, "branch", "out of memory");
+    t->options = options;
+    t->out = branch;
+    t->follow_hopf = options->kind == FST_BRANCH_ALL;
+    fst_watch_begin(&t->watch, options->progress);
+    fst_watch_part(&t->watch, 0.0, options->second_key ? 0.5 : 1.0);
+    begin(params, options, branch);
     status =
         params->friction_law == FST_FRICTION_ROLLING && !(params->friction_rolling_resistance > 0)
             ? fst_fail(error, FST_BAD_INPUT, "friction.law",
@@ -275,11 +295,6 @@ fst_status fst_branch_follow(const fst_params *params, const fst_branch_options 
         keep_followed(t, second_at);
     if (status == FST_OK && options->second_key)
         status = follow_specials(t, params, error);
-    branch->complete = status == FST_OK;
-    if (status == FST_OK || status == FST_INTERRUPTED)
-        fst_branch_find_images(branch);
-    else
-        fst_branch_free(branch);
     free(t);
-    return status;
+    return finish(status, branch);
 }

@@ -34,7 +34,7 @@ fst_status fst_branch_add_special(fst_branch *out, const fst_special *special, f
 fst_status fst_branch_add_end(fst_branch *out, int branch, int family, double value, const fst_curve_end *why,
                               fst_error *error)
 {
-    fst_branch_end end = {.branch = branch, .family = family, .value = value, .type = why->type};
+    fst_branch_end end = {.branch = branch, .family = family, .image = -1, .value = value, .type = why->type};
     (void)snprintf(end.reason, sizeof end.reason, "%s", why->reason);
     return append((void **)&out->ends, &out->end_count, &end, sizeof end, error);
 }

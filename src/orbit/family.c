@@ -27,6 +27,7 @@
 
 #include "base/error.h"
 #include "model/modes.h"
+#include "model/worlds.h"
 #include "model/tangent.inl"
 #include "ode/flow.h"
 
@@ -185,6 +186,13 @@ static double value_in(const fst_family *family, const char *key, const fst_grou
 
 fst_status fst_family_begin(fst_family *family, const fst_params *params, const char *key, fst_error *error)
 {
+    const fst_status status = key ? fst_check_no_world(params, error) : FST_OK;
+    return status == FST_OK ? fst_family_begin_in_world(family, params, key, error) : status;
+}
+
+fst_status fst_family_begin_in_world(fst_family *family, const fst_params *params, const char *key,
+                                     fst_error *error)
+{
     memset(family, 0, sizeof *family);
     family->params = *params;
     family->key = -1;
@@ -202,7 +210,7 @@ fst_status fst_family_begin(fst_family *family, const fst_params *params, const 
                             "%s is no parameter with real values: fst_param_at() lists them", key);
         /* Setting it once clears the other forms of the quantity. */
         fst_model *model = NULL;
-        status = fst_model_new(params, &model, error);
+        status = fst_field_model_new(params, NAN, &model, error);
         if (status != FST_OK)
             return status;
         const fst_groups groups = fst_model_groups(model);

@@ -45,6 +45,10 @@ typedef struct fst_setup {
  * or one that is no real number; FST_UNAVAILABLE: no LAPACK. */
 fst_status fst_family_begin(fst_family *family, const fst_params *params, const char *key, fst_error *error);
 
+/* The same of beads in any world. */
+fst_status fst_family_begin_in_world(fst_family *family, const fst_params *params, const char *key,
+                                     fst_error *error);
+
 /* Every tolerance from that of the integration: residuals of 1e-12, or down to 1e-13 where the integration is
  * more exact than that; tests of special points down to a tenth of it.  (A residual of 1e-14 is what rounding
  * leaves.) */

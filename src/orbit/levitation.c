@@ -76,11 +76,15 @@ void levitation_describe(const beads_world *world, const fst_groups *g, const be
     const double mm = 1e3 * g->length_unit, *x = lock->state, *n = x + BEADS_N;
     memset(out, 0, sizeof *out);
     memcpy(out->state, x, sizeof out->state);
+    for (int k = 0; k < 3; ++k) {
+        out->position_m[k] = x[k] * g->length_unit;
+        out->w_per_s[k] = x[BEADS_W + k] / g->time_unit;
+    }
     out->height_mm = fabs(x[2]) * mm;
     out->circle_mm = hypot(x[0], x[1]) * mm;
     out->tilt_deg = atan2(hypot(n[0], n[1]), fabs(n[2])) * 360.0 / FST_TWO_PI;
     out->gap_mm = (world->clearance(world->source, x[0], x[1], x[2]) - world->body[0].radius) * mm;
-    out->family = lock->free > 0;
+    out->family = !(world->body[0].spin_drag > 0);
     out->residual = lock->residual;
     out->unstable = lock->unstable;
     out->stable = lock->unstable == 0;
@@ -141,7 +145,7 @@ static fst_status try_from(search *s, double z, double up, fst_error *error)
     fst_error why;
     memset(&s->lock, 0, sizeof s->lock);
     (void)lift(&s->world, z, up, s->lock.state);
-    const fst_status status = beads_lock_correct(s->lapack, &s->world, &s->lock, &why);
+    const fst_status status = beads_lock_correct(s->lapack, NULL, &s->world, &s->lock, &why);
     if (status == FST_NO_MEMORY)
         return fst_fail(error, status, "locked", "out of memory");
     int at_magnet;

@@ -11,4 +11,8 @@ void levitation_describe(const beads_world *world, const fst_groups *g, const be
 /* The world of the parameters, whose model is to be freed after it; of a bead without a plate. */
 fst_status levitation_world(const fst_params *params, fst_model **model, beads_world *world, fst_error *error);
 
+/* Follow places, or motions with the drive's period, over a parameter, for fst_branch_follow() (world_branch.c). */
+fst_status fst_follow_world(const fst_params *params, const fst_branch_options *options, fst_branch *branch,
+                            fst_error *error);
+
 #endif

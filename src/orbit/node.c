@@ -34,7 +34,8 @@ fst_status fst_node_make(const fst_family *family, const fst_solution *s, fst_no
     p->omega = setup.model.groups.omega;
     p->mean_r = p->mean_alpha_dot = p->mean_nz = p->festoons = p->period = p->min_r = p->bead_angle_deg =
         p->slip = p->second = NAN;
-    p->swing_ratio = NAN;
+    p->swing_ratio = p->levitation.height_mm = p->levitation.tilt_deg = p->levitation.circle_mm =
+        p->levitation.gap_mm = NAN;
     p->relaxation_time = fst_solution_relaxation(&node->s);
     p->stable = fst_solution_is_stable(&node->s);
     p->multipliers = node->s.multipliers;

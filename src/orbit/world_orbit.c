@@ -1,44 +1,32 @@
 /* world_orbit.c - motions that repeat themselves with the drive's period, of one bead in three dimensions.
  *
  * The map P takes a state at the start of a period to its end; its fixed point is found by Newton's method on the
- * directions in which the bead can move (beads/manifold.h),
- *
- *     (DP - 1) step = y - P(y),
- *
- * DP by differences of whole periods, and its eigenvalues are the multipliers.  Everything that changes with time must
- * have the period: a coil whose frequency is no multiple of it has none in common with the drive.
+ * directions in which the bead can move (beads_lock.c), DP by differences of whole periods; its eigenvalues are the
+ * multipliers.  Everything that changes with time must have the period: a coil whose frequency is no multiple of it has
+ * none in common with the drive.
  */
+#include "orbit/world_orbit.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "base/watch.h"
 #include "beads/impact.h"
-#include "beads/manifold.h"
 #include "beads/setup.h"
 #include "model/params.h"
 #include "model/worlds.h"
-#include "orbit/lapack.h"
 
-static const double FOUND = 1e-10, REACH = 1e-3, SAME_RATE = 1e-9, AT_UNIT = 1e-6;
-enum { ITERATIONS = 30 };
+static const double SAME_RATE = 1e-9, AT_UNIT = 1e-6;
 
-typedef struct strobe {
-    const fst_lapack *lapack;
-    const fst_progress *progress;
-    beads_world world;
-    beads_modes modes;
-    beads_flow flow;
-    double period, rtol;
-} strobe;
-
-/* The state after a period, or after as many as `limit` has. */
-static fst_status go(strobe *s, const double *y, double limit, double *out, fst_error *error)
+/* The state after so long. */
+static fst_status go(world_strobe *s, const double *y, double duration, fst_error *error)
 {
     fst_status status = beads_begin(&s->flow, &s->world, y, s->rtol, error);
-    while (status == FST_OK && s->flow.t.high < limit) {
-        status = beads_go(&s->flow, limit, error);
+    while (status == FST_OK && s->flow.t.high < duration) {
+        status = beads_go(&s->flow, duration, error);
         if (status == FST_OK)
             status = fst_tell(s->progress, 0.0, NULL, error);
     }
@@ -46,21 +34,29 @@ static fst_status go(strobe *s, const double *y, double limit, double *out, fst_
         return fst_fail(error, FST_NO_CONVERGENCE, "orbit",
                         "the bead leaves at t = %.6g, so nothing repeats itself: choose another start",
                         s->flow.ejected[0]);
+    return status;
+}
+
+/* A beads_map: the state after a period. */
+static fst_status after(void *user, const double *y, double *out, fst_error *error)
+{
+    world_strobe *s = user;
+    double start[BEADS_NUMBERS];
+    memcpy(start, y, FST_BEAD_NUMBERS * sizeof *start);
+    beads_project(&s->world, &s->modes, start);
+    const fst_status status = go(s, start, s->repeat.period, error);
+    if (status == FST_OK && s->flow.modes.contact[0] != s->modes.contact[0])
+        return fst_fail(error, FST_NO_CONVERGENCE, "orbit",
+                        "the contact opens or closes within a period, and is another one at its end");
     memcpy(out, s->flow.step.y, FST_BEAD_NUMBERS * sizeof *out);
     return status;
 }
 
-static fst_status map(void *user, const double *y, double *out, fst_error *error)
-{
-    strobe *s = user;
-    return go(s, y, s->period, out, error);
-}
-
 /* The period of all that changes. */
-static fst_status find_period(const fst_model *model, strobe *s, fst_error *error)
+static fst_status find_period(world_strobe *s, fst_error *error)
 {
     const fst_surroundings *around = &s->world.around;
-    const int moves = model->world.kinds.pieces > 0 || around->drive.kind == FST_WAVEFORM_WAVE;
+    const int moves = s->model->world.kinds.pieces > 0 || around->drive.kind == FST_WAVEFORM_WAVE;
     double rate = moves || !s->world.surrounded ? s->world.omega : 0.0;
     if (s->world.surrounded && !isfinite(fst_waveform_period(&around->drive)))
         return fst_fail(
@@ -80,8 +76,50 @@ static fst_status find_period(const fst_model *model, strobe *s, fst_error *erro
     if (!(rate > 0))
         return fst_fail(error, FST_BAD_INPUT, "drive.waveform",
                         "nothing changes here, so that there is no period");
-    s->period = FST_TWO_PI / rate;
+    s->repeat = (beads_repeat){after, s, FST_TWO_PI / rate};
     return FST_OK;
+}
+
+fst_status world_strobe_set(world_strobe *s, const fst_params *params, const fst_beads_options *options,
+                            double state[BEADS_NUMBERS], fst_error *error)
+{
+    fst_model_free(s->model);
+    s->model = NULL;
+    s->progress = options->progress;
+    s->rtol = fmin(params->run_rtol, 1e-12);
+    fst_status status = fst_key_of_surroundings(params) ? FST_OK : fst_check_no_world(params, error);
+    if (status == FST_OK && !s->lapack)
+        status = fst_lapack_load(&s->lapack, error);
+    if (status == FST_OK)
+        status = beads_set_up(params, 1, options, &s->model, &s->world, state, error);
+    if (status == FST_OK && !isnan(s->world.plate))
+        s->world.plate_radius = INFINITY; /* an orbit goes on beyond the plate's edge */
+    return status == FST_OK ? find_period(s, error) : status;
+}
+
+fst_status world_strobe_find(world_strobe *s, const fst_params *params, const double *state, beads_lock *lock,
+                             fst_error *error)
+{
+    memset(lock, 0, sizeof *lock);
+    const fst_status status = go(s, state, s->repeat.period * ceil(fst_run_discard(params)), error);
+    if (status != FST_OK)
+        return status;
+    memcpy(lock->state, s->flow.step.y, FST_BEAD_NUMBERS * sizeof *lock->state);
+    lock->modes = s->modes = s->flow.modes;
+    fst_error why;
+    const fst_status found = beads_lock_correct(s->lapack, &s->repeat, &s->world, lock, &why);
+    return found == FST_NO_CONVERGENCE
+               ? fst_fail(error, found, "orbit", "%s: make run.discard larger, or choose another start",
+                          why.sentence)
+           : found != FST_OK ? fst_fail(error, found, why.where, "%s", why.sentence)
+                             : FST_OK;
+}
+
+void world_multiplier(const beads_lock *lock, double period, int i, double *re, double *im)
+{
+    const double size = exp(lock->re[i] * period), angle = lock->im[i] * period;
+    *re = size * cos(angle);
+    *im = size * sin(angle);
 }
 
 static int by_size(const void *a, const void *b)
@@ -90,103 +128,35 @@ static int by_size(const void *a, const void *b)
     return p != q ? (p < q) - (p > q) : (x[1] < y[1]) - (x[1] > y[1]);
 }
 
-static fst_status find_multipliers(strobe *s, int size, double *matrix, fst_world_orbit *orbit,
-                                   fst_error *error)
+static void tell(const world_strobe *s, const beads_lock *lock, fst_world_orbit *orbit)
 {
-    double re[FST_BEAD_NUMBERS], im[FST_BEAD_NUMBERS];
-    if (s->lapack->eigen(size, matrix, re, im, NULL) != 0)
-        return fst_fail(error, FST_NO_CONVERGENCE, "orbit", "the multipliers were not found");
-    orbit->count = size;
-    for (int i = 0; i < size; ++i) {
-        orbit->multipliers[i][0] = re[i];
-        orbit->multipliers[i][1] = im[i];
-    }
-    qsort(orbit->multipliers, (size_t)size, sizeof *orbit->multipliers, by_size);
+    orbit->period = s->repeat.period;
+    orbit->frame = s->world.surrounded && s->world.around.laboratory ? FST_FRAME_LABORATORY : FST_FRAME_TURNING;
+    orbit->count = lock->size;
+    for (int i = 0; i < lock->size; ++i)
+        world_multiplier(lock, orbit->period, i, &orbit->multipliers[i][0], &orbit->multipliers[i][1]);
+    qsort(orbit->multipliers, (size_t)lock->size, sizeof *orbit->multipliers, by_size);
     orbit->stable = hypot(orbit->multipliers[0][0], orbit->multipliers[0][1]) < 1.0 + AT_UNIT;
-    return FST_OK;
-}
-
-/* One step of Newton's method from y, which it moves; the matrix becomes DP. */
-static fst_status step(strobe *s, double *y, beads_manifold *m, double *matrix, double *residual,
-                       fst_error *error)
-{
-    double end[FST_BEAD_NUMBERS], off[FST_BEAD_NUMBERS], right[FST_BEAD_NUMBERS];
-    double left[FST_BEAD_NUMBERS * FST_BEAD_NUMBERS];
-    fst_status status = map(s, y, end, error);
-    if (status != FST_OK)
-        return status;
-    s->modes = s->flow.modes;
-    beads_span(&s->world, &s->modes, y, NULL, m);
-    *residual = 0.0;
-    for (int i = 0; i < FST_BEAD_NUMBERS; ++i) {
-        off[i] = y[i] - end[i];
-        *residual = fmax(*residual, fabs(off[i]) / m->unit[i]);
-    }
-    status = beads_derivative(m, map, s, y, REACH, matrix, error);
-    if (status != FST_OK || *residual < FOUND)
-        return status;
-    beads_components(m, off, right);
-    memcpy(left, matrix, (size_t)(m->size * m->size) * sizeof *left);
-    for (int i = 0; i < m->size; ++i)
-        left[i * m->size + i] -= 1.0;
-    int rank;
-    if (s->lapack->shortest(m->size, left, right, 1e-12, &rank) != 0)
-        return fst_fail(error, FST_NO_CONVERGENCE, "orbit", "Newton's matrix is no matrix");
-    beads_vector(m, right, off);
-    for (int i = 0; i < FST_BEAD_NUMBERS; ++i)
-        y[i] += off[i];
-    beads_project(&s->world, &s->modes, y);
-    return FST_OK;
-}
-
-static fst_status find(strobe *s, const fst_params *p, double *y, fst_world_orbit *orbit, fst_error *error)
-{
-    beads_manifold *m = malloc(sizeof *m);
-    double matrix[FST_BEAD_NUMBERS * FST_BEAD_NUMBERS];
-    fst_status status = m ? FST_OK : fst_fail(error, FST_NO_MEMORY, "orbit", "out of memory");
-    if (status == FST_OK)
-        status = go(s, y, s->period * ceil(fst_run_discard(p)), y, error);
-    orbit->residual = INFINITY;
-    for (int i = 0; i < ITERATIONS && status == FST_OK && !(orbit->residual < FOUND); ++i)
-        status = step(s, y, m, matrix, &orbit->residual, error);
-    if (status == FST_OK && !(orbit->residual < FOUND))
-        status =
-            fst_fail(error, FST_NO_CONVERGENCE, "orbit",
-                     "Newton's method found no motion that repeats itself with the drive (residual %.3g): make "
-                     "run.discard larger, or choose another start",
-                     orbit->residual);
-    if (status == FST_OK)
-        status = find_multipliers(s, m->size, matrix, orbit, error);
-    free(m);
-    return status;
+    orbit->residual = lock->residual;
+    memcpy(orbit->state, lock->state, sizeof orbit->state);
+    orbit->state[2] += isnan(s->world.plate) ? 0.0 : s->world.body[0].radius;
 }
 
 fst_status fst_world_orbit_find(const fst_params *params, const fst_beads_options *options,
                                 fst_world_orbit *orbit, fst_error *error)
 {
-    fst_model *model = NULL;
-    double y[BEADS_NUMBERS];
+    double state[BEADS_NUMBERS];
+    beads_lock lock;
     memset(orbit, 0, sizeof *orbit);
-    fst_status status = fst_key_of_surroundings(params) ? FST_OK : fst_check_no_world(params, error);
-    if (status != FST_OK)
-        return status;
-    strobe *s = calloc(1, sizeof *s);
+    world_strobe *s = calloc(1, sizeof *s);
     if (!s)
         return fst_fail(error, FST_NO_MEMORY, "orbit", "out of memory");
-    s->progress = options->progress;
-    s->rtol = fmin(params->run_rtol, 1e-12);
-    status = fst_lapack_load(&s->lapack, error);
+    fst_status status = world_strobe_set(s, params, options, state, error);
     if (status == FST_OK)
-        status = beads_set_up(params, 1, options, &model, &s->world, y, error);
+        status = world_strobe_find(s, params, state, &lock, error);
     if (status == FST_OK)
-        status = find_period(model, s, error);
-    if (status == FST_OK)
-        status = find(s, params, y, orbit, error);
-    orbit->period = s->period;
-    orbit->frame = s->world.surrounded && s->world.around.laboratory ? FST_FRAME_LABORATORY : FST_FRAME_TURNING;
-    memcpy(orbit->state, y, sizeof orbit->state);
-    orbit->state[2] += isnan(s->world.plate) ? 0.0 : s->world.body[0].radius;
-    fst_model_free(model);
+        tell(s, &lock, orbit);
+    fst_model_free(s->model);
     free(s);
     return status;
 }

@@ -41,7 +41,7 @@ static void guess_arch(const beads_world *world, double rise, beads_lock *lock)
 static void correct(const beads_world *world, beads_lock *lock)
 {
     fst_error error = {FST_OK, "", ""};
-    if (beads_lock_correct(lapack(), world, lock, &error) != FST_OK)
+    if (beads_lock_correct(lapack(), NULL, world, lock, &error) != FST_OK)
         fail_msg("beads_lock_correct: %s", error.sentence);
 }
 
@@ -373,14 +373,14 @@ static void test_fold(void **unused)
     const beads_world world = floater(gravity, 200, 1, 1, lock);
     correct(&world, lock);
     way[FST_BEAD_NUMBERS] = -1;
-    assert_int_equal(beads_lock_across(lapack(), &over, &value, lock, way, &error), FST_OK);
+    assert_int_equal(beads_lock_across(lapack(), NULL, &over, &value, lock, way, &error), FST_OK);
     int was_stable = 1;
     for (int i = 0; i < 400 && (way[FST_BEAD_NUMBERS] < 0 || was_stable); ++i) {
         was_stable = lock->unstable == 0;
         for (int k = 0; k < FST_BEAD_NUMBERS; ++k)
             lock->state[k] += 0.01 * way[k];
         value += 0.01 * way[FST_BEAD_NUMBERS] * over.scale;
-        assert_int_equal(beads_lock_across(lapack(), &over, &value, lock, way, &error), FST_OK);
+        assert_int_equal(beads_lock_across(lapack(), NULL, &over, &value, lock, way, &error), FST_OK);
         least = fmin(least, value);
     }
     CHECK_CLOSE(least, 162.1, 0.1);

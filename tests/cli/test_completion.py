@@ -84,7 +84,7 @@ class Completion(Case):
         self.assertEqual(self.offered("run", "--set=model.dynamics=f"), ["--set=model.dynamics=farago2020"])
 
     def test_choices(self):
-        self.assertEqual(self.offered("branch", "--kind", ""), ["counter", "locked", "all", "levitating"])
+        self.assertEqual(self.offered("branch", "--kind", ""), ["counter", "locked", "all", "levitating", "driven"])
         self.assertEqual(self.offered("branch", "--kind", "=", "c"), ["counter"])
         self.assertEqual(self.offered("plot", "--kind", "lo"), ["local-n"])
         self.assertEqual(self.offered("sweep", "--threads", ""), [])
@@ -163,7 +163,7 @@ class OtherShells(Case):
         self.assertEqual(offered("festoon run --js"), {"--json"})
         self.assertEqual(offered("festoon run --set drive."), set(KEYS_OF_THE_DRIVE))
         self.assertEqual(offered("festoon run --set model.dynamics=f"), {"model.dynamics=farago2020"})
-        self.assertEqual(offered("festoon branch --kind "), {"counter", "locked", "all", "levitating"})
+        self.assertEqual(offered("festoon branch --kind "), {"counter", "locked", "all", "levitating", "driven"})
         self.assertNotIn("--kind", offered("festoon run --"))
         for name in ("a b.yaml", "notes.txt"):
             open(self.path(name), "w", encoding="utf-8").close()

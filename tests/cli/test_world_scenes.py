@@ -46,6 +46,26 @@ class Worlds(Case):
         self.assertEqual(len(best["eigenvalues_per_s"]), 11)
         self.assertAlmostEqual(math.hypot(*best["n"]), 1, delta=1e-12)
 
+    def test_branch_of_levitation(self):
+        scene, path, figure = self.scene("levitation"), self.path("b.json"), self.path("b.svg")
+        words = ("branch", scene, "--kind", "levitating", "--over", "magnet.parts[0].rotation[0]=3.5:6")
+        told = json.loads(self.good(*words, "--json", "-o", path))
+        with open(path, encoding="utf-8") as file:
+            self.assertEqual(json.load(file), told)
+        fold = next(s for s in told["specials"] if s["type"] == "fold")
+        states = json.loads(self.good("locked", scene, "--set", f"magnet.parts[0].rotation[0]={fold['value'] * 1.000001}",
+                                      "--json"))["states"]
+        self.assertLess(min(abs(s["height_mm"] - fold["at"]["height_mm"]) for s in states), 0.1)
+        self.assertEqual({len(p["eigenvalues_per_s"]) for p in told["points"]}, {11})
+        for name in ((), ("--observable", "circle_mm"), ("--observable", "multipliers")):
+            self.good("plot", path, *name, "-o", figure)
+            with open(figure, encoding="utf-8") as file:
+                self.assertIn(("distance from the magnet", "circle", "Eigenvalues")[len(name) and 1 + ("multipliers" in name)],
+                              file.read())
+        self.assertIn("height_mm", self.refused("plot", path, "--observable", "festoons", "-o", figure))
+        self.assertIn("one of a family", self.refused(*words, "--set", "medium.spin_drag_rate=0"))
+        self.assertIn("leave it out", self.refused(*words, "--tolerance", "1e-9"))
+
     def test_trajectories(self):
         for name, frame in (("levitation", "turning"), ("compass", "laboratory"), ("wave", "laboratory")):
             words = ("run", self.scene(name), "--set", "run.duration=0.1", "--json")
@@ -102,6 +122,41 @@ class Worlds(Case):
         none = json.loads(self.good("run", "--set", "run.periods=20", "--set", "medium.drag_rate=0", "--json"))
         self.assertEqual(none["final_state"], flat["final_state"])
 
+    def test_orbits_and_locked_states(self):
+        """In a bowl as wide as a plain they are those of the flat plate; in narrow ones and in water there are others."""
+        wide = ("--set", "plate.shape=bowl", "--set", "plate.bowl_radius=1000 m")
+        flat, bowl = (json.loads(self.good("orbit", *words, "--json")) for words in ((), wide))
+        for key in ("period", "mean_r", "mean_alpha_dot"):
+            self.assertAlmostEqual(flat[key], bowl[key], delta=1e-4 * abs(flat[key]))
+        for one, other in zip(flat["multipliers"][:4], bowl["multipliers"][:4]):
+            self.assertLess(math.hypot(one[0] - other[0], one[1] - other[1]), 1e-4)
+        slow = ("--set", "drive.frequency=4")
+        states = json.loads(self.good("locked", *slow, "--json"))["states"]
+        state = json.loads(self.good("locked", *slow, *wide, "--json"))["states"][0]
+        at = min((s for s in states if s["stable"]), key=lambda s: abs(s["r"] - state["beads"][0]["r"]))
+        self.assertAlmostEqual(at["r"], state["beads"][0]["r"], delta=1e-4)
+        self.assertEqual(len(state["eigenvalues"]), 9)
+        for one, other in zip(sorted(at["eigenvalues"]), sorted(state["eigenvalues"])):
+            self.assertLess(abs(one[0] - other[0]), 1e-3)
+        self.assertTrue(json.loads(self.good("orbit", self.scene("bowl"), "--json"))["stable"])
+        branch = json.loads(self.good("branch", self.scene("bowl"), "--kind", "locked", "--over", "plate.bowl_radius=0.15:0.3",
+                                      "--set", "drive.frequency=3", "--json"))
+        self.assertGreater(len(branch["points"]), 10)
+        self.assertIn("--kind locked", self.refused("branch", self.scene("bowl"), "--kind", "counter", "--over", "drive.omega=0.1:0.2"))
+
+    def test_driven(self):
+        words = ("--set", "world.frame=laboratory", "--set", "run.discard=1", "--set", "drive.frequency=164", "--set",
+                 "start.position[2]=32 mm")
+        path, figure = self.path("driven.json"), self.path("driven.svg")
+        told = json.loads(self.good("branch", self.scene("levitation"), *words, "--kind", "driven", "--over",
+                                    "drive.frequency=161:165", "-o", path, "--json"))
+        self.assertEqual([s["type"] for s in told["specials"]], ["fold"])
+        self.assertAlmostEqual(told["specials"][0]["value"], 162.077, delta=1e-3)
+        self.assertEqual({len(p["state"]) for p in told["points"]}, {12})
+        self.good("plot", path, "-o", figure)
+        self.good("plot", path, "--observable", "multipliers", "-o", figure)
+        self.assertIn("run.discard", self.refused("orbit", self.scene("compass"), "--set", "run.discard=3", status=1))
+
     def test_refusals(self):
         for words, *sets in (("give plate.bowl_radius", "plate.shape=bowl"),
                              ("larger than the bead", "plate.shape=bowl", "plate.bowl_radius=2mm"),
@@ -115,8 +170,7 @@ class Worlds(Case):
             self.assertIn(words, self.refused("run", *words_of_sets))
         self.assertIn("inside the magnet", self.refused("run", self.scene("levitation"), "--set",
                                                         "start.position[2]=12mm"))
-        for command in (("orbit",), ("locked",), ("lyapunov",)):
-            self.assertIn("medium.density", self.refused(*command, "--set", "medium.density=1000"))
+        self.assertIn("medium.density", self.refused("lyapunov", "--set", "medium.density=1000"))
         self.assertIn("plate.shape none", self.refused("branch", "--kind", "levitating", "--over", "drive.omega=1:2"))
 
 

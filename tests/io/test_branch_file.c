@@ -10,7 +10,10 @@
 static const char PATH[] = "test_branch_file.json";
 
 /* If a struct grows, this fails: write, read and fill in the new member below. (Padding counts as integers.) */
-_Static_assert(sizeof(fst_branch_point) == (13 + 2 * 9 + 10) * sizeof(double) + 6 * sizeof(int),
+_Static_assert(sizeof(fst_levitation) == (12 + 6 + 4 + 2 * 11 + 1) * sizeof(double) + 4 * sizeof(int),
+               "a new member");
+_Static_assert(sizeof(fst_branch_point) ==
+                   (13 + 2 * 9 + 10) * sizeof(double) + 6 * sizeof(int) + sizeof(fst_levitation),
                "a new member");
 _Static_assert(sizeof(fst_special) == 2 * sizeof(double) + 6 * sizeof(int) + sizeof(fst_branch_point),
                "a new member");
@@ -19,7 +22,30 @@ _Static_assert(sizeof(fst_branch) == 2 * 64 + 6 * sizeof(double) + 6 * sizeof(in
                "a new member");
 
 /* All numbers differ from each other and none is zero, so that no member can stand for another. */
-static fst_branch_point point_of(int i, int eigenvalues)
+static fst_levitation place_of(int i)
+{
+    fst_levitation l;
+    memset(&l, 0, sizeof l);
+    double *const numbers[] = {&l.height_mm, &l.tilt_deg, &l.circle_mm, &l.gap_mm, &l.residual};
+    for (int k = 0; k < 5; ++k)
+        *numbers[k] = 1.0 / (5.0 + 19.0 * i + k);
+    for (int k = 0; k < 3; ++k) {
+        l.position_m[k] = 1e-3 / (i + k + 1);
+        l.w_per_s[k] = 1e3 / (i + k + 1);
+    }
+    for (int k = 0; k < FST_BEAD_NUMBERS; ++k)
+        l.state[k] = 0.2 * (i + 1) + 1e-17 * k + k;
+    l.stable = i % 2;
+    l.family = i % 3 == 0;
+    l.unstable = l.stable ? 0 : 2;
+    for (int k = 0; k < FST_LEVITATION_DIRECTIONS; ++k) {
+        l.eigenvalue_re[k] = (k < l.unstable ? 1.0 : -1.0) / (7.0 + i + k);
+        l.eigenvalue_im[k] = 1e-300 * (i + k + 1);
+    }
+    return l;
+}
+
+static fst_branch_point point_of(int i, int eigenvalues, fst_branch_kind kind)
 {
     fst_branch_point p;
     memset(&p, 0, sizeof p);
@@ -34,23 +60,31 @@ static fst_branch_point point_of(int i, int eigenvalues)
     p.stable = i % 2;
     p.turns = i % 3 - 1;
     p.branch = i % 4;
+    if (kind == FST_BRANCH_LEVITATING) {
+        p.levitation = place_of(i);
+        return p;
+    }
+    p.levitation.height_mm = p.levitation.tilt_deg = p.levitation.circle_mm = p.levitation.gap_mm = NAN;
     p.multipliers = eigenvalues ? FST_EIGENVALUE_COUNT : FST_MULTIPLIER_COUNT;
     for (int k = 0; k < p.multipliers; ++k) {
         p.multiplier_re[k] = -1.0 / (7.0 + i + k);
         p.multiplier_im[k] = 1e-300 * (i + k + 1);
     }
-    for (int k = 0; k < FST_STATE_SIZE; ++k)
+    for (int k = 0; k < FST_STATE_SIZE && kind != FST_BRANCH_DRIVEN; ++k)
         p.state[k] = 0.1 * (i + 1) + 1e-17 * k + k;
+    for (int k = 0; k < FST_BEAD_NUMBERS && kind == FST_BRANCH_DRIVEN; ++k)
+        p.levitation.state[k] = 0.1 * (i + 1) + 1e-17 * k + k;
     return p;
 }
 
 /* Every type, kind and symmetry occurs, and every value that is not a number. */
-static fst_branch made_up(int over_two)
+static fst_branch made_up(fst_branch_kind kind)
 {
+    const int over_two = kind == FST_BRANCH_LOCKED;
     enum { POINTS = 7, TYPES = FST_SPECIAL_COUNT, ENDS = FST_END_COUNT };
     fst_branch b;
     memset(&b, 0, sizeof b);
-    b.kind = over_two ? FST_BRANCH_LOCKED : FST_BRANCH_ALL;
+    b.kind = kind;
     (void)snprintf(b.key, sizeof b.key, "drive.omega");
     b.from = -0.1;
     b.to = 2.0 / 3.0;
@@ -69,7 +103,7 @@ static fst_branch made_up(int over_two)
     b.ends = calloc(ENDS, sizeof *b.ends);
     assert_true(b.points && b.specials && b.ends);
     for (int i = 0; i < POINTS; ++i)
-        b.points[b.point_count++] = point_of(i, i % 2);
+        b.points[b.point_count++] = point_of(i, i % 2, kind);
     for (int i = 0; i < TYPES; ++i) {
         fst_special *s = &b.specials[b.special_count++];
         s->type = (fst_special_type)i;
@@ -78,7 +112,7 @@ static fst_branch made_up(int over_two)
         s->branch = 4 - i % 5;
         s->criticality = i % 3 - 1;
         s->born = i % 4 - 1;
-        s->at = point_of(20 + i, i % 2);
+        s->at = point_of(20 + i, i % 2, kind);
     }
     for (int i = 0; i < ENDS; ++i) {
         fst_branch_end *end = &b.ends[b.end_count++];
@@ -144,8 +178,8 @@ static void check_round_trip(fst_branch *b)
 static void every_member_comes_back(void **state)
 {
     (void)state;
-    for (int over_two = 0; over_two < 2; ++over_two) {
-        fst_branch b = made_up(over_two);
+    for (int kind = FST_BRANCH_LOCKED; kind < FST_BRANCH_COUNT; ++kind) {
+        fst_branch b = made_up((fst_branch_kind)kind);
         check_round_trip(&b);
         fst_branch_free(&b);
     }
@@ -219,7 +253,7 @@ static void other_members_are_refused(void **state)
         {"\"specials\"", "\"type\": \"fold\"", "\"type\": 0", "specials[0].type"},
         {"\"specials\"", "\"type\": \"fold\",", "", "specials[0].type is missing: it must be one of"},
         {"\"crossings\"", "\"transcritical\"", "\"Fold\"", "crossings[0].type"},
-        {"{", "\"all\"", "\"al\"", "kind must be one of counter|locked|all|levitating, not \"al\""},
+        {"{", "\"all\"", "\"al\"", "kind must be one of counter|locked|all|levitating|driven, not \"al\""},
         {"{", "\"drive.omega\"", "\"drive.omega\\n`id`\"", "parameter must be a key of the scene"},
         {"{", "\"drive.omega\"", "\"drive.omega\\u0000x\"", "this is no JSON"},
         {"{", "\"drive.omega\"", "\"model.dynamics\"", "parameter"},
@@ -251,7 +285,7 @@ static void other_members_are_refused(void **state)
     };
     (void)state;
     const fst_params params = fst_default_params();
-    fst_branch b = made_up(0), read;
+    fst_branch b = made_up(FST_BRANCH_ALL), read;
     fst_error error;
     char *text = fst_branch_json(&params, &b);
     put_file(text);
@@ -323,7 +357,7 @@ static void integers_end_at_their_borders(void **state)
     };
     (void)state;
     const fst_params params = fst_default_params();
-    fst_branch b = made_up(0), read;
+    fst_branch b = made_up(FST_BRANCH_ALL), read;
     fst_error error;
     char *text = fst_branch_json(&params, &b);
     for (size_t i = 0; i < sizeof integers / sizeof *integers; ++i)

@@ -1,7 +1,9 @@
 /* Places where a bead floats without a plate beside a tilted turning magnet: against numbers of an independent program,
  * the formula of docs/levitation.md, and the branch's ends.
  *
- * tests: orbit/levitation.c orbit/levitation_branch.c model/medium.c */
+ * tests: orbit/levitation.c orbit/world_branch.c orbit/beads_curve.c model/medium.c */
+#include <stdio.h>
+
 #include <festoon/beads.h>
 
 #include "physics.h"
@@ -120,6 +122,29 @@ static void test_drags(void **unused)
     CHECK_CLOSE(free.eigenvalue_re[0], 0, 1e-5);
 }
 
+static fst_branch follow(const fst_params *p, const char *key, double from, double to)
+{
+    fst_branch branch;
+    fst_error error = {FST_OK, "", ""};
+    fst_branch_options options = fst_default_branch_options();
+    options.kind = FST_BRANCH_LEVITATING;
+    options.key = key;
+    options.from = from;
+    options.to = to;
+    if (fst_branch_follow(p, &options, &branch, &error) != FST_OK)
+        fail_msg("%s", error.sentence);
+    return branch;
+}
+
+/* Where the first special point of a type lies, over the magnet's plane; NAN: nowhere. */
+static double special_above(const fst_branch *branch, fst_special_type type)
+{
+    for (size_t k = 0; k < branch->special_count; ++k)
+        if (branch->specials[k].type == type && branch->specials[k].at.levitation.state[2] > 0)
+            return branch->specials[k].value;
+    return NAN;
+}
+
 /* The least frequencies: below a fold, above a Hopf point. */
 static void test_least_frequencies(void **unused)
 {
@@ -135,28 +160,49 @@ static void test_least_frequencies(void **unused)
                  {"5", "9.81", FST_SPECIAL_HOPF, 158.8}};
     for (int i = 0; i < 5; ++i) {
         const fst_params p = levitator(cases[i].tilt, cases[i].gravity);
-        fst_levitation_branch branch;
-        fst_error error = {FST_OK, "", ""};
-        if (fst_levitation_follow(&p, "drive.frequency", 60, 300, NULL, &branch, &error) != FST_OK)
-            fail_msg("%s", error.sentence);
-        double nearest = INFINITY;
-        for (size_t k = 0; k < branch.special_count; ++k) {
-            const fst_levitation_special *s = &branch.specials[k];
-            if (s->type == cases[i].type && s->point.at.state[2] > 0)
-                nearest = fmin(nearest, fabs(s->point.value - cases[i].hertz));
-        }
-        CHECK_CLOSE(nearest, 0, 0.051);
-        fst_levitation_branch_free(&branch);
+        fst_branch branch = follow(&p, "drive.frequency", 60, 300);
+        CHECK_CLOSE(special_above(&branch, cases[i].type), cases[i].hertz, 0.051);
+        fst_branch_free(&branch);
     }
+}
+
+/* Curves over other keys pass the same fold; over the drag the Hopf point above which the drag of the motion stops what
+ * that of the turning feeds; and end where the bead touches the magnet or the range ends. */
+static void test_keys(void **unused)
+{
+    (void)unused;
+    fst_params p = levitator("5", "-9.81");
+    fst_branch branch = follow(&p, "drive.frequency", 150, 500);
+    const double hertz = special_above(&branch, FST_SPECIAL_FOLD);
+    double touched = NAN;
+    for (size_t i = 0; i < branch.end_count; ++i)
+        if (branch.ends[i].type == FST_END_CONTACT)
+            touched = branch.ends[i].value;
+    fst_branch_free(&branch);
+    char text[32];
+    (void)snprintf(text, sizeof text, "%.17g", touched);
+    set(&p, "drive.frequency", text);
+    const fst_levitation at_end = place(&p, touched > 420);
+    CHECK_CLOSE(at_end.gap_mm, 0, 1e-7);
+    (void)snprintf(text, sizeof text, "%.17g", hertz);
+    set(&p, "drive.frequency", text);
+    branch = follow(&p, "magnet.parts[0].rotation[0]", 4, 6);
+    CHECK_CLOSE(special_above(&branch, FST_SPECIAL_FOLD), 5, 1e-9);
+    fst_branch_free(&branch);
+    branch = follow(&p, "bead.radius", 6e-3, 7e-3);
+    CHECK_CLOSE(1e3 * special_above(&branch, FST_SPECIAL_FOLD), 6.35, 1e-9);
+    fst_branch_free(&branch);
+    set(&p, "drive.frequency", "200");
+    branch = follow(&p, "medium.drag_rate", 0, 0.02);
+    CHECK_CLOSE(special_above(&branch, FST_SPECIAL_HOPF), 0.009, 5.1e-4);
+    fst_branch_free(&branch);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_heights),
-        cmocka_unit_test(test_formula),
-        cmocka_unit_test(test_drags),
-        cmocka_unit_test(test_least_frequencies),
+        cmocka_unit_test(test_heights),           cmocka_unit_test(test_formula), cmocka_unit_test(test_drags),
+        cmocka_unit_test(test_least_frequencies), cmocka_unit_test(test_keys),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
