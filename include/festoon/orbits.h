@@ -107,11 +107,6 @@ FST_API void fst_locked_free(fst_locked_list *list);
 
 typedef enum { FST_BRANCH_KINDS(FST_ROW_ENUM) FST_BRANCH_COUNT } fst_branch_kind;
 FST_API const char *fst_branch_kind_name(fst_branch_kind kind);
-/* Of one bead in three dimensions: levitating, driven. */
-static inline int fst_branch_is_of_world(fst_branch_kind kind)
-{
-    return kind == FST_BRANCH_LEVITATING || kind == FST_BRANCH_DRIVEN;
-}
 typedef enum { FST_SPECIALS(FST_ROW_ENUM) FST_SPECIAL_COUNT } fst_special_type;
 FST_API const char *fst_special_name(fst_special_type type);
 

@@ -26,7 +26,7 @@ from ._native import ffi as _ffi
 from ._native import lib as _lib
 from ._native import text_of as _text_of
 from ._quantities import UNSET
-from .beads import Beads, BeadsRun, BeadsTrajectory
+from .beads import Beads, BeadsRun, BeadsTrajectory, WorldRun
 from .beads_orbits import BeadsBranch, BeadsLocked, BeadsOrbit
 from .bead import Bead, Groups, MaterialWarning
 from .files import export, paper, read, schema
@@ -36,7 +36,7 @@ from .measuring import Fit, Measurement, Track, fit, measure, read_track, save_p
 from .orbits import Branch, Locked, LockedStates, Lyapunov, Orbit
 from .runs import Run
 from .sweeping import sweep
-from .sweeps import Sweep
+from .sweeps import Sweep, SweepTable
 from .trajectories import Trajectory
 
 if TYPE_CHECKING:
@@ -83,10 +83,12 @@ __all__ = [
     "Run",
     "StepUnderflow",
     "Sweep",
+    "SweepTable",
     "Track",
     "Trajectory",
     "UNSET",
     "Unavailable",
+    "WorldRun",
     "components",
     "export",
     "figures",

@@ -186,7 +186,7 @@ class Bead(Parameters):
                 watch.call(lib.fst_params_read_map, self._params, watch.told, field_map)
             self._map = ffi.gc(field_map[0], lib.fst_field_map_free) if field_map[0] else None
         model = ffi.new("fst_model **")
-        call(lib.fst_model_new, self._params, model)
+        call(lib.fst_field_model_new, self._params, math.nan, model)
         if self._params.bead_count and type(self) is Bead:
             raise BadInput("beads", "this scene lists several beads: festoon.Beads(scene) takes them")
         self._made = ffi.gc(model[0], lib.fst_model_free)
@@ -197,6 +197,13 @@ class Bead(Parameters):
         if self._made is None:
             self._make()
         return self._made
+
+    @property
+    def _flat_model(self) -> Any:
+        """The same for what is known of a bead on a flat plate in air alone: of one in a world it is refused."""
+        if lib.fst_key_of_world(self._params):
+            call(lib.fst_model_new, self._params, ffi.new("fst_model **"))
+        return self._model
 
     def __setattr__(self, name: str, value: Any) -> None:
         if not name.startswith("_"):
@@ -459,7 +466,7 @@ class Bead(Parameters):
             Where the start does not exist, as one that rolls on the axis.
         """
         state = ffi.new("double[]", lib.FST_STATE_SIZE)
-        call(lib.fst_start_state, self._params, self._model, state)
+        call(lib.fst_start_state, self._params, self._flat_model, state)
         return np.array(list(state))
 
     def _text(self, key: str) -> str:
@@ -584,7 +591,8 @@ class Bead(Parameters):
         Returns
         -------
         Run
-            Its numbers are scaled; `si` and `lab` have them in other units.
+            Its numbers are scaled; `si` and `lab` have them in other units.  Of a bead in a world (a bowl, a fluid, no
+            plate, fields of the laboratory) a `WorldRun`; `start` then has twelve numbers.
 
         Raises
         ------
@@ -601,10 +609,16 @@ class Bead(Parameters):
         >>> run.regime, run.symmetry
         ('counter-rotating', 'S1')
         """
-        from . import runs
+        from . import beads, runs
 
+        asked = self.replace(run__periods=periods, run__discard=discard)._asked()
+        world = lib.fst_key_of_world(asked._params)
+        if world and ramp is None:
+            if sample_from:
+                raise BadInput("sample_from", f"it is not for a bead in a world ({text_of(world)})")
+            return beads._run(asked, trajectory, fps, None if start is None else [start], progress)  # type: ignore[no-any-return]
         return runs.run(
-            self.replace(run__periods=periods, run__discard=discard)._asked(),
+            asked,
             trajectory=trajectory,
             fps=fps,
             sample_from=sample_from,

@@ -1,4 +1,4 @@
-"""Several beads on one plate: a scene with a list of beads, their run, and their trajectories."""
+"""Several beads on one plate, and one bead in a world: their runs, and their trajectories."""
 
 import json
 import math
@@ -160,7 +160,7 @@ class Beads(Bead):
             After Ctrl-C; `partial` is the trajectory until then, or None.
         """
         scene = self.replace(run__periods=periods, run__discard=discard)._asked()
-        return _run(scene, trajectory, fps, start, progress)  # type: ignore[arg-type]
+        return _run(scene, trajectory, fps, start, progress)  # type: ignore[no-any-return]
 
     def orbit(self, *, progress: Progress = None) -> "BeadsOrbit":  # type: ignore[override]
         """The periodic orbit by which the motion from the start passes, stable or not: a `BeadsOrbit`.
@@ -408,26 +408,81 @@ class BeadsRun(Told):
         return "\n".join([*lines, "  all its numbers: to_dict(); as tables: to_pandas('events')"])
 
 
+class WorldRun(Told):
+    """What one bead in a world does: in a bowl, a fluid, fields of the laboratory, or without a plate.
+
+    Its attributes are the keys of `festoon run --json`, scaled (l, 1/gamma) unless they name a unit: regime, reason,
+    frame, mean_r, mean_height, energy_residual, final_time, final_lab, final_lab_si, ...; NaN where undefined.
+    """
+
+    #: The bead that ran.
+    bead: Bead
+    #: The samples, a `BeadsTrajectory` of one bead; None where none was asked for.
+    trajectory: Any
+
+    def __init__(self, bead: Bead, told: Dict[str, Any], trajectory: Any = None) -> None:
+        self.bead, self._told, self.trajectory = bead, told, trajectory
+
+    def _facts(self) -> Any:
+        return [self._told, None if self.trajectory is None else self.trajectory.states.tobytes()]
+
+    def __getattr__(self, name: str) -> Any:
+        told = self.__dict__.get("_told", {})
+        if name not in told:
+            raise AttributeError(name)
+        value = told[name]
+        return lent(np.array(value, float)) if isinstance(value, list) else _number(value)
+
+    def __dir__(self) -> List[str]:
+        return [*super().__dir__(), *self._told]
+
+    def to_dict(self) -> Dict[str, Any]:
+        """What `festoon run --json` prints.
+
+        Returns
+        -------
+        dict
+            Keys and numbers as the program prints them; None where a number is undefined.
+
+        Raises
+        ------
+        OutOfMemory
+            Where there is no memory for it.
+        """
+        return dict(self._told)
+
+    def __reduce__(self) -> Any:
+        return WorldRun, (self.bead, self._told, self.trajectory)
+
+    def __repr__(self) -> str:
+        return f"WorldRun: {self._told['regime']}, in the frame of the {self._told['frame']}\n  {self._told['reason']}"
+
+
 class BeadsTrajectory(Told):
-    """The samples of a run of several beads, scaled (l, 1/gamma).
+    """The samples of a run of several beads, or of one in a world, scaled (l, 1/gamma).
 
     >>> pair = Beads(beads=[{"start__phi": 3}, {"start__phi": 183}], frequency="30 Hz", run__periods=2, run__discard=1)
     >>> pair.run(trajectory=True).trajectory.states.shape
     (129, 2, 12)
     """
 
-    #: The beads that ran.
-    setup: Beads
+    #: The beads that ran; of one in a world, the bead.
+    setup: Bead
+    #: "turning", or "laboratory", of one in a world: on whose axes the states are.
+    frame: str
     #: The time of each sample [1/gamma], and the turns of the magnet until then.
     t: Any
     drive_turns: Any
-    #: Of the shape (samples, beads, 12): X Y Z vX vY vZ nX nY nZ WX WY WZ, in the frame of the magnet.
+    #: Of the shape (samples, beads, 12): X Y Z vX vY vZ nX nY nZ WX WY WZ, on the axes of `frame`; Z is
+    #: the height of the centre over the plate, without a plate over the magnet's reference plane.
     states: Any
     #: Of the shape (samples, beads): the force of each bead on the plate, per mass of the first one [l gamma^2]; NaN in the air.
     loads: Any
 
-    def __init__(self, setup: Beads, t: Any, drive_turns: Any, states: Any, loads: Any) -> None:
-        self.setup = setup
+    def __init__(
+        self, setup: Bead, t: Any, drive_turns: Any, states: Any, loads: Any, frame: str = "turning"
+    ) -> None:
+        self.setup, self.frame = setup, frame
         self.t, self.drive_turns, self.states, self.loads = (lent(array) for array in (t, drive_turns, states, loads))
 
     def _facts(self) -> Any:
@@ -469,7 +524,8 @@ class BeadsTrajectory(Told):
         BadInput
             Where units are unknown.
         """
-        angle = 2 * math.pi * (self.drive_turns % 1)[:, None]
+        turns = self.drive_turns if self.frame == "turning" else 0 * self.drive_turns
+        angle = 2 * math.pi * (turns % 1)[:, None]
         x, y, z = (self.states[..., i] for i in range(3))
         places = np.stack([x * np.cos(angle) - y * np.sin(angle), x * np.sin(angle) + y * np.cos(angle), z], axis=-1)
         return places * Scales(self.setup._params, units).factor("mean_r", "l")[0]
@@ -511,7 +567,7 @@ class BeadsTrajectory(Told):
             colour = text_of(lib.fst_colour_code(lib.fst_bead_colour(i)))
             ax.plot(places[:, i, 0], places[:, i, 1], color=colour, linewidth=1.2, label=f"bead {i}")
             if len(places):
-                radius = factor * self.setup.alone(i).groups.eps
+                radius = factor * (self.setup.alone(i) if isinstance(self.setup, Beads) else self.setup).groups.eps
                 ax.add_patch(Circle(places[-1, i, :2], radius, facecolor=colour, edgecolor="white", alpha=0.7, zorder=3))
         ax.set_aspect("equal")
         _style.dress(ax, f"Trails of {places.shape[1]} beads", "", f"x ({unit})", f"y ({unit})")
@@ -519,20 +575,26 @@ class BeadsTrajectory(Told):
         return ax
 
     def __reduce__(self) -> Any:
-        return BeadsTrajectory, (self.setup, *(np.array(a) for a in (self.t, self.drive_turns, self.states, self.loads)))
+        arrays = (np.array(a) for a in (self.t, self.drive_turns, self.states, self.loads))
+        return BeadsTrajectory, (self.setup, *arrays, self.frame)
 
     def __repr__(self) -> str:
         turns = f", drive periods {self.drive_turns[0]:.6g} to {self.drive_turns[-1]:.6g}" if len(self) else ""
         return f"BeadsTrajectory: {len(self)} samples of {self.states.shape[1]} beads{turns}"
 
 
-def _trajectory_of(setup: Beads, samples: Any) -> BeadsTrajectory:
+def _frame(frame: int) -> str:
+    return "laboratory" if frame == lib.FST_FRAME_LABORATORY else "turning"
+
+
+def _trajectory_of(setup: Bead, samples: Any) -> BeadsTrajectory:
     """The samples as arrays; they own their memory from here on."""
-    beads = len(setup)
+    beads = max(1, int(setup._params.bead_count))
     values, samples.values = samples.values, ffi.NULL
     rows = freed_array(values, samples.rows, np.dtype((np.float64, (2 + 13 * beads,)))).reshape(samples.rows, 2 + 13 * beads)
     states = rows[:, 2 : 2 + 12 * beads].reshape(len(rows), beads, 12)
-    return BeadsTrajectory(setup, rows[:, 0], rows[:, 1], states, rows[:, 2 + 12 * beads :])
+    frame = _frame(lib.fst_frame_of_world(setup._params))
+    return BeadsTrajectory(setup, rows[:, 0], rows[:, 1], states, rows[:, 2 + 12 * beads :], frame)
 
 
 def _start(start: Any, beads: int, options: Any) -> Any:
@@ -545,12 +607,13 @@ def _start(start: Any, beads: int, options: Any) -> Any:
 
 
 def _run(
-    setup: Beads, trajectory: Union[bool, str, "os.PathLike[str]"], fps: Any, start: Any, progress: Progress
-) -> BeadsRun:
-    """See Beads.run()."""
-    result = ffi.gc(ffi.new("fst_beads_result *"), lib.fst_beads_free)
+    setup: Bead, trajectory: Union[bool, str, "os.PathLike[str]"], fps: Any, start: Any, progress: Progress
+) -> Any:
+    """See Beads.run(); of one bead in a world, Bead.run()."""
+    beads = int(setup._params.bead_count)
+    result = ffi.gc(ffi.new("fst_beads_result *"), lib.fst_beads_free) if beads else ffi.new("fst_world_result *")
     samples, options = ffi.new("pyf_bead_samples *"), options_of(lib.fst_default_beads_options())
-    kept = None if start is None else _start(start, len(setup), options)
+    kept = None if start is None else _start(start, max(1, beads), options)
     if fps is not None:
         rate = quantity(fps, lib.FST_UNIT_FREQUENCY, "fps")
         if not 0 < rate < math.inf:
@@ -566,15 +629,17 @@ def _run(
     def closed(complete: bool) -> Any:
         file, samples.file = samples.file, ffi.NULL
         if file:
-            call(lib.fst_beads_trajectory_close, file, result if complete else ffi.NULL, complete)
+            close = lib.fst_beads_trajectory_close if beads else lib.fst_world_trajectory_close
+            call(close, file, result if complete else ffi.NULL, complete)
         return _trajectory_of(setup, samples) if trajectory is True else None
 
     try:
         with Watch(progress, lambda: closed(False), "run") as watch:
             options.progress = watch.told
-            watch.call(lib.fst_beads_run_scene, setup._params, options, result)
-            told = json.loads(take_text(lib.fst_beads_json(setup._params, result, units_of("scaled"))))
-            return BeadsRun(setup, told, closed(True))
+            watch.call(lib.fst_beads_run_scene if beads else lib.fst_world_run, setup._params, options, result)
+            text = (lib.fst_beads_json if beads else lib.fst_world_json)(setup._params, result, units_of("scaled"))
+            kind: Any = BeadsRun if beads else WorldRun
+            return kind(setup, json.loads(take_text(text)), closed(True))
     finally:
         del kept
         if samples.file:
@@ -583,15 +648,11 @@ def _run(
 
 
 def read(path: Path) -> BeadsTrajectory:
-    """Read a trajectory of several beads from .h5 or .csv."""
+    """Read a trajectory of several beads, or of one in a world, from .h5 or .csv."""
     table = ffi.gc(ffi.new("fst_beads_table *"), lib.fst_beads_table_free)
     with Watch(None) as watch:
         watch.call_apart(lib.fst_beads_trajectory_read, path_bytes(path), table)
-    if not table.scene.bead_count:
-        raise BadInput(
-            os.fsdecode(path), "this is a trajectory of one bead in a world, which `festoon plot` draws; its CSV can be read"
-        )
-    setup = Beads(take_text(lib.fst_scene_text(ffi.addressof(table, "scene"), False)) + "\n")
+    setup = (Beads if table.scene.bead_count else Bead)(take_text(lib.fst_scene_text(ffi.addressof(table, "scene"), False)) + "\n")
     rows, beads = int(table.rows), int(table.count)
     t, turns = (np.array(owned_array(pointer, rows, "f8", table)) for pointer in (table.t, table.drive_turns))
     states = np.array(owned_array(table.states, rows * beads * 12, "f8", table)).reshape(rows, beads, 12)
@@ -601,4 +662,4 @@ def read(path: Path) -> BeadsTrajectory:
         for touch in (table.touches[k] for k in range(ends[row], ends[row + 1])):
             if touch.beads[1] < 0:
                 loads[row, touch.beads[0]] = touch.force
-    return BeadsTrajectory(setup, t, turns, states, loads)
+    return BeadsTrajectory(setup, t, turns, states, loads, _frame(table.frame))

@@ -28,7 +28,7 @@ def _in_pieces(function: Any, bead: Bead, count: int, arrays: Any) -> None:
     places = [(ffi.from_buffer("double[]", values), width) for values, width in arrays]
     try:
         for i in range(0, count, PIECE):
-            function(bead._model, min(PIECE, count - i), *[values + width * i for values, width in places])
+            function(bead._flat_model, min(PIECE, count - i), *[values + width * i for values, width in places])
     except KeyboardInterrupt:
         raise Interrupted() from None
 
@@ -60,7 +60,7 @@ def observe(bead: Bead, states: Any) -> Any:
     if made.size:
         count = given.size // given.shape[-1]
         rows = ffi.from_buffer("fst_observation[]", made)
-        lib.pyf_observe(bead._model, count, ffi.from_buffer("double[]", given), rows)
+        lib.pyf_observe(bead._flat_model, count, ffi.from_buffer("double[]", given), rows)
     return made.view(np.recarray)
 
 
@@ -68,7 +68,7 @@ def field(bead: Bead, x: Any, y: Any, height: Any, units: str) -> Tuple[Any, Any
     """See Bead.field()."""
     if units not in ("scaled", "si"):
         raise BadInput("field", f'unknown units "{units}": scaled or si')
-    groups = lib.fst_model_groups(bead._model)
+    groups = lib.fst_model_groups(bead._flat_model)
     length, tesla = float(groups.length_unit), float(groups.field_unit)
     if units == "si" and math.isnan(tesla):
         raise BadInput("field", "B0 in tesla does not follow from the parameters: give magnet.b0 or bead.moment")

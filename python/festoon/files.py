@@ -136,7 +136,7 @@ def read(path: Path) -> Any:
 
     Returns
     -------
-    Trajectory, BeadsTrajectory, Sweep or Branch
+    Trajectory, BeadsTrajectory, Sweep, SweepTable or Branch
         Scaled, as what was written.
 
     Raises

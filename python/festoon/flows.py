@@ -65,7 +65,7 @@ class Flow:
         self._watch = Watch(progress)  # its address is the flow's for good
         chosen.progress = self._watch.told
         made = ffi.new("fst_flow **")
-        call(lib.fst_flow_new, bead._model, chosen, ffi.new("double[]", list(start)), made)
+        call(lib.fst_flow_new, bead._flat_model, chosen, ffi.new("double[]", list(start)), made)
         self._flow = ffi.gc(made[0], lib.fst_flow_free)
         self._lock, self._advances = threading.RLock(), False
 

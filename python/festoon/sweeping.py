@@ -71,7 +71,7 @@ def _into_file(
         watch.call(lib.fst_sweep, bead._params, path_bytes(path), options, counts)
     if 0 < counts.undefined == counts.computed:
         warnings.warn(f"{by or 'regime'} has no value in any run, so nothing was refined", stacklevel=3)
-    return read_sweep(path)
+    return read_sweep(path)  # type: ignore[no-any-return]
 
 
 def _refining(levels: int, by: Optional[str], step: float) -> Tuple[int, Optional[str], float]:

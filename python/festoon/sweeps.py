@@ -22,6 +22,7 @@ from ._native import (
     strings,
     text_of,
 )
+from ._pickled import Told
 from ._quantities import Scales
 from ._tables import RESULTS, SweepNumbers
 from .bead import Bead, key_of, keyword_of, row_of
@@ -78,6 +79,83 @@ class SweepIn(SweepNumbers):
 
     def __hash__(self) -> int:
         return hash((self._sweep, self._units))
+
+
+class SweepTable(Told):
+    """What a sweep of several beads, of one in a world or of places of levitation tells: columns over a grid.
+
+    A column is an attribute and an item, an array of the grid's shape: numbers, NaN where undefined, or words.
+    """
+
+    def __init__(self, grid: Any, rows: List[Dict[str, Any]]) -> None:
+        self.axes = [Axis(grid, i) for i in range(lib.fst_grid_axis_count(grid))]
+        self.dims = tuple(axis.keyword for axis in self.axes)
+        self._rows = rows
+
+    @property
+    def shape(self) -> Tuple[int, ...]:
+        """The length of each dimension."""
+        return tuple(len(axis.values) for axis in self.axes)
+
+    @property
+    def columns(self) -> List[str]:
+        """The names of what it tells."""
+        return list(self._rows[0])
+
+    def __getitem__(self, name: str) -> Any:
+        if name not in self._rows[0]:
+            raise BadInput("sweep", f'no column "{name}"; there are {", ".join(self.columns)}')
+        told: Dict[int, Any] = {row["point"]: row[name] for row in self._rows}
+        count = int(np.prod(self.shape))
+        if any(isinstance(value, str) for value in told.values()):
+            values: Any = np.array([told.get(i) or "" for i in range(count)])
+        else:
+            unknown = np.nan * np.ones_like(next((v for v in told.values() if v is not None), np.nan), float)
+            values = np.array([unknown if told.get(i) is None else told[i] for i in range(count)], float)
+        return lent(values.reshape(self.shape + values.shape[1:]))
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_") or name not in self._rows[0]:
+            raise AttributeError(name)
+        return self[name]
+
+    def __dir__(self) -> List[str]:
+        return [*super().__dir__(), *self.columns]
+
+    def to_dict(self) -> Dict[str, Any]:
+        """The columns by their names.
+
+        Returns
+        -------
+        dict
+            Lists in the order of the points that have rows, as `festoon export --json` writes them.
+
+        Raises
+        ------
+        OutOfMemory
+            Where there is no memory for it.
+        """
+        return {name: [row[name] for row in self._rows] for name in self.columns}
+
+    def to_pandas(self) -> Any:
+        """A data frame, a row a point.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The columns as `festoon export --json` writes them.
+
+        Raises
+        ------
+        ImportError
+            Where pandas is missing.
+        """
+        import pandas
+
+        return pandas.DataFrame(self._rows)
+
+    def __repr__(self) -> str:
+        return f"SweepTable: {' x '.join(map(str, self.shape))} points over {', '.join(self.dims)}; columns {', '.join(self.columns)}"
 
 
 class Sweep(SweepNumbers):
@@ -559,8 +637,8 @@ def _regimes_between(path: Path) -> Any:
         lib.fst_sweep_table_free(table)
 
 
-def read_sweep(path: Path) -> Sweep:
-    """Read a sweep's database."""
+def read_sweep(path: Path) -> Any:
+    """Read a sweep's database: a Sweep, or of beads and worlds a SweepTable."""
     found = ffi.new("fst_grid **")
     call(lib.fst_sweep_read_grid, path_bytes(path), found)
     grid = ffi.gc(found[0], lib.fst_grid_free)
@@ -577,9 +655,7 @@ def read_sweep(path: Path) -> Sweep:
         with open(out, encoding="utf-8") as file:
             given = json.load(file)
     if given and "symmetry" not in given[0]:
-        raise BadInput(
-            os.fsdecode(path), "this is a sweep of several beads, or of one in a world: festoon.export() writes its rows"
-        )
+        return SweepTable(grid, given)
     batch = ffi.gc(lib.pyf_batch_new(grid, lib.FST_ARITHMETIC_PORTABLE, 0), lib.pyf_batch_free)
     if not batch:
         raise OutOfMemory("sweep", "no memory for the rows")

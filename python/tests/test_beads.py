@@ -1,6 +1,7 @@
 """Several beads: the program's numbers, arrays of the samples, files, copies, and what is refused."""
 
 import copy
+import json
 import math
 import pickle
 import subprocess
@@ -73,26 +74,39 @@ def test_a_sweep_of_the_program_is_exported(program, pair, tmp_path):
     pair.save(tmp_path / "pair.yaml")
     subprocess.run([program, "sweep", "pair.yaml", "--over", "drive.frequency=29:30:2", "-o", "s.db"], cwd=tmp_path, check=True,
                    capture_output=True)
-    with pytest.raises(fs.BadInput, match="several beads"):
-        fs.read(tmp_path / "s.db")
+    read = fs.read(tmp_path / "s.db")
+    assert read.shape == (2,) and read.outcome[0] in ("apart", "undecided")
+    with pytest.raises(fs.BadInput, match="outcome"):
+        read["outcom"]
     fs.export(tmp_path / "s.db", tmp_path / "s.csv", keys=["outcome"])
     assert len((tmp_path / "s.csv").read_text().splitlines()) >= 3
 
 
 @pytest.mark.parametrize("world", ["levitation", "bowl", "compass", "wave"])
-def test_files_of_a_world_are_told_in_words(program, world, tmp_path):
-    """One bead in a world: the module does not read its files, and says what does."""
+def test_files_of_a_world(program, world, tmp_path):
+    """One bead in a world: its run, trajectory and sweep are those of the program, in either frame."""
     def start(*words):
-        subprocess.run([program, *words], cwd=tmp_path, check=True, capture_output=True)
+        return subprocess.run([program, *words], cwd=tmp_path, check=True, capture_output=True).stdout
 
     start("init", "world.yaml", "--world", world)
-    start("run", "world.yaml", "--set", "run.duration=0.05", "-o", "t.h5")
-    start("sweep", "world.yaml", "--set", "run.duration=0.05", "--over", "bead.inertia=0.4:0.5:2", "-o", "s.db")
-    for name, what in (("t.h5", "trajectory of one bead in a world"), ("s.db", "sweep of several beads, or of one in a world")):
-        with pytest.raises(fs.BadInput, match=what):
-            fs.read(tmp_path / name)
-    fs.export(tmp_path / "s.db", tmp_path / "s.csv")
-    assert (tmp_path / "s.csv").read_text().count("\n") >= 3
+    short = ("--set", "run.duration=0.05")
+    told = json.loads(start("run", "world.yaml", *short, "-o", "t.h5", "--fps", "100", "--json"))
+    bead = fs.Bead(tmp_path / "world.yaml", run__duration=0.05)
+    run = bead.run(trajectory=True, fps=100)
+    assert run.frame == told["frame"] and run.regime == told["regime"] and np.array_equal(run.final_lab, told["final_lab"])
+    assert pickle.loads(pickle.dumps(run)) == run and run.to_dict().keys() == told.keys()
+    read = fs.read(tmp_path / "t.h5")
+    assert read.frame == run.frame and np.array_equal(read.states, run.trajectory.states)
+    assert np.allclose(read.places()[-1, 0], told["final_lab"][:3], atol=1e-9)
+    if world in ("levitation", "bowl"):
+        other = bead.replace(world__frame="laboratory").run(trajectory=True, fps=100).trajectory
+        assert (read.frame, other.frame) == ("turning", "laboratory")
+        assert np.allclose(other.places(), read.places(), atol=1e-9) and np.allclose(other.t, read.t)
+    start("sweep", "world.yaml", *short, "--over", "bead.inertia=0.4:0.5:2", "-o", "s.db")
+    sweep = fs.read(tmp_path / "s.db")
+    assert sweep.shape == (2,) and sweep.dims == ("bead__inertia",) and sweep.regime[0] == told["regime"]
+    assert sweep.final_state.shape == (2, 12) and np.array_equal(sweep.final_state[0], told["final_state"])
+    assert sweep["mean_r"][0] == told["mean_r"] and "frame" in sweep.columns and "2 points" in repr(sweep)
 
 
 def test_vectors_of_a_start():

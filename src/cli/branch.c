@@ -217,8 +217,8 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     fst_status status = read_scene(given, operand(given), &params, error);
     if (status == FST_OK)
         status = read_options(given, keys, &o, error);
-    const int in_world = status == FST_OK && fst_key_of_world(&params) && !fst_branch_is_of_world(o.kind);
-    if (status == FST_OK && (params.bead_count || in_world))
+    const int of_one = o.kind == FST_BRANCH_LEVITATING || o.kind == FST_BRANCH_DRIVEN;
+    if (status == FST_OK && (params.bead_count || (fst_key_of_world(&params) && !of_one)))
         return branch_of_beads(given, &params, &o, out, error);
     const char *path = option_value(given, "output");
     if (status == FST_OK && path)

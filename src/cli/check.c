@@ -36,22 +36,29 @@ static void print_map(FILE *out, const fst_field_map *map)
                                    : "");
 }
 
-/* The same of a scene that lists beads: whether they can begin a run, as one of no length finds out. */
-static fst_status check_beads(const arguments *given, const fst_params *scene, FILE *out, fst_error *error)
+fst_status check_world(const fst_params *scene, fst_error *error)
 {
     fst_beads_result result = {.count = 0};
     fst_world_result alone;
     fst_params shortest = *scene;
-    char name[SHOWN_SIZE];
     const fst_beads_options usual = fst_default_beads_options();
     shortest.run_periods = 1e-3;
     shortest.run_discard = 0.0;
     shortest.run_duration = NAN;
     fst_status status = scene->bead_count ? fst_beads_run_scene(&shortest, &usual, &result, error)
                                           : fst_world_run(&shortest, &usual, &alone, error);
+    if (status == FST_OK)
+        fst_beads_free(&result);
+    return status;
+}
+
+/* The same of a scene that lists beads. */
+static fst_status check_beads(const arguments *given, const fst_params *scene, FILE *out, fst_error *error)
+{
+    char name[SHOWN_SIZE];
+    const fst_status status = check_world(scene, error);
     if (status != FST_OK)
         return status;
-    fst_beads_free(&result);
     if (option_value(given, "json"))
         return print_and_free(fst_scene_json(scene), out, error);
     char *text = fst_scene_text(scene, 0);

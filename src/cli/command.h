@@ -107,4 +107,7 @@ fst_status read_values(const arguments *given, const value_option *rows, size_t 
 /* Whether a file's name has this ending, and more before it. */
 int ends_in(const char *path, const char *ending);
 
+/* Whether the beads of a list, or the bead of a world, can begin a run, as one of no length finds out (check.c). */
+fst_status check_world(const fst_params *scene, fst_error *error);
+
 #endif

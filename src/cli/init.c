@@ -36,6 +36,8 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
                               : read_scene(given, NULL, &params, error);
     if (status == FST_OK && world && option_value(given, "set"))
         status = fail(error, FST_BAD_INPUT, "", "--set is not for --world: change the scene that it writes");
+    if (status == FST_OK && !world && (params.bead_count || fst_key_of_world(&params)))
+        status = check_world(&params, error);
     if (status != FST_OK)
         return status;
     if (strcmp(path, "-") == 0 && world)

@@ -323,6 +323,60 @@ static void test_step_out(void **unused)
     assert_true(mean_rate(0.1, 10.5, 10.5, 400) < 5.0);
 }
 
+/* The moment turns in a vertical plane, as the field of two wide coils does, and the bead rolls along: viscous friction
+ * brakes its turning by what the drag holds back, so that the lock is lost at kappa b/(c_v/(1 + c_v) + beta c_W). */
+static void test_rolling_step_out(void **unused)
+{
+    (void)unused;
+    const double c_v = 0.5, c_w = 0.1, torque = 0.3;
+    const double lost = torque / (c_v / (1 + c_v) + 0.4 * c_w);
+    for (int above = 0; above < 2; ++above) {
+        const double omega = (above ? 1.03 : 0.97) * lost, lag = asin(fmin(omega / lost, 1));
+        fst_params p = in_tesla();
+        set(&p, "magnet.shape", "parts");
+        for (int i = 0; i < 2; ++i) {
+            char key[40];
+            (void)snprintf(key, sizeof key, "coils[%d].radius", i);
+            set(&p, key, "9 m");
+            (void)snprintf(key, sizeof key, "coils[%d].ac", i);
+            set(&p, key, "10000 A");
+            (void)snprintf(key, sizeof key, "coils[%d].frequency", i);
+            set(&p, key, "1 Hz");
+        }
+        set(&p, "coils[0].axis[0]", "1");
+        set(&p, "coils[0].axis[2]", "0");
+        set(&p, "coils[1].phase", "90 deg"); /* B = b (cos Omega t, 0, -sin Omega t) */
+        fst_model *model = field_model(&p);
+        beads_world world = free_beads(1);
+        const double eps = world.body[0].radius;
+        world.plate = 0;
+        world.gravity = 1;
+        world.surrounded = 1;
+        world.around = surroundings_of(model);
+        world.around.loops[0].rate = world.around.loops[1].rate = omega;
+        double b[3], change[3];
+        fst_gradient_double g;
+        fst_surroundings_field(&world.around, 0, (const double[3]){0, 0, 0}, b, &g, change);
+        world.body[0].strength = torque * eps * eps / b[0];
+        world.body[0].drag = c_v;
+        world.body[0].spin_drag = c_w * world.body[0].inertia;
+        beads_number_contacts(&world, 1.0, 0.0);
+        double start[FST_BEAD_NUMBERS] = {0, 0,     0, eps * omega / (1 + c_v), 0, 0, cos(lag), 0, sin(lag),
+                                          0, omega, 0};
+        beads_flow *flow = begin_beads(&world, start, 1e-10);
+        go_to(flow, 100);
+        const double half = flow->step.y[0];
+        go_to(flow, 200);
+        const double speed = (flow->step.y[0] - half) / 100 / (eps * omega / (1 + c_v));
+        if (above)
+            assert_true(speed < 0.9);
+        else
+            CHECK_CLOSE(speed, 1, 1e-4); /* the field is less a little away from the middle */
+        free(flow);
+        fst_model_free(model);
+    }
+}
+
 /* ------------------------------------------------------------------ waves */
 
 /* The bead rolls along x under a wave of the array below (p) and one above (q). */
@@ -468,15 +522,11 @@ static void test_forward_lock(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_derivatives),
-        cmocka_unit_test(test_known_fields),
-        cmocka_unit_test(test_frames_agree),
-        cmocka_unit_test(test_energy),
-        cmocka_unit_test(test_incline),
-        cmocka_unit_test(test_step_out),
-        cmocka_unit_test(test_wave_is_a_pendulum),
-        cmocka_unit_test(test_wave_thresholds),
-        cmocka_unit_test(test_forward_lock),
+        cmocka_unit_test(test_derivatives),      cmocka_unit_test(test_known_fields),
+        cmocka_unit_test(test_frames_agree),     cmocka_unit_test(test_energy),
+        cmocka_unit_test(test_incline),          cmocka_unit_test(test_step_out),
+        cmocka_unit_test(test_rolling_step_out), cmocka_unit_test(test_wave_is_a_pendulum),
+        cmocka_unit_test(test_wave_thresholds),  cmocka_unit_test(test_forward_lock),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -25,6 +25,8 @@ class Worlds(Case):
                 self.assertEqual(self.good("init", "-", "--world", name), file.read())
             self.good("check", self.scene(name))
         self.assertIn("levitation", self.refused("init", "-", "--world", "levitatoin"))
+        self.assertIn("start.position[2]", self.refused("init", "-", "--set", "plate.shape=none"))  # as `check` says
+        self.assertIn("plate.bowl_radius", self.refused("init", self.path("b.yaml"), "--set", "plate.shape=bowl"))
 
     def test_levitation(self):
         run = json.loads(self.good("run", self.scene("levitation"), "--json"))

@@ -70,6 +70,31 @@ static void test_heights(void **unused)
     CHECK_CLOSE(place(&p, 1).height_mm, 23.772, 5.1e-4);
 }
 
+/* The rates of the laboratory, of numbers that are whole within their tolerance: up and down, sideways, nodding.  A motion
+ * of the turning frame at the rate w +- f is seen there at the rate f. */
+static void test_swings(void **unused)
+{
+    (void)unused;
+    static const struct {
+        double hertz, within;
+        int count;
+    } swings[] = {{11.7, 0.2, 1}, {5, 0.5, 2}, {22, 1.7, 2}};
+    const fst_params p = levitator("5", "9.81");
+    const fst_levitation below = place(&p, 0);
+    int found = 0;
+    for (int s = 0; s < 3; ++s) {
+        int count = 0;
+        for (int i = 0; i < FST_LEVITATION_DIRECTIONS; ++i) {
+            const double turning = below.eigenvalue_im[i] / TWO_PI;
+            const double hertz = turning > 100 ? fabs(turning - 200) : turning;
+            count += turning > 1 && fabs(hertz - swings[s].hertz) < swings[s].within;
+        }
+        assert_int_equal(count, swings[s].count);
+        found += count;
+    }
+    assert_int_equal(found, 5);
+}
+
 /* z^3 = K s^2 (1 + 12 I/(m z^2))/(2 I w^2 c), and the same without the motion of the centre. */
 static void test_formula(void **unused)
 {
@@ -193,6 +218,10 @@ static void test_keys(void **unused)
     CHECK_CLOSE(1e3 * special_above(&branch, FST_SPECIAL_FOLD), 6.35, 1e-9);
     fst_branch_free(&branch);
     set(&p, "drive.frequency", "200");
+    branch = follow(&p, "magnet.parts[0].rotation[0]", 12,
+                    17); /* the upper end, a tilt of the rotor above 15 degrees */
+    CHECK_CLOSE(special_above(&branch, FST_SPECIAL_HOPF), 15.4, 0.051);
+    fst_branch_free(&branch);
     branch = follow(&p, "medium.drag_rate", 0, 0.02);
     CHECK_CLOSE(special_above(&branch, FST_SPECIAL_HOPF), 0.009, 5.1e-4);
     fst_branch_free(&branch);
@@ -201,7 +230,8 @@ static void test_keys(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_heights),           cmocka_unit_test(test_formula), cmocka_unit_test(test_drags),
+        cmocka_unit_test(test_heights),           cmocka_unit_test(test_swings),
+        cmocka_unit_test(test_formula),           cmocka_unit_test(test_drags),
         cmocka_unit_test(test_least_frequencies), cmocka_unit_test(test_keys),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -111,6 +111,45 @@ static void test_multipliers_are_exponentials(void **unused)
     }
 }
 
+/* A straight rotor and a uniform field along the axis hold a bead above it upright, where the repulsion carries it,
+ *
+ *     3 K^2/(I w^2 z^7) + 36 K^2/(m w^2 z^9) = m g
+ *
+ * but it runs away sideways. */
+static void test_straight_rotor(void **unused)
+{
+    (void)unused;
+    fst_params p = levitator("9.81");
+    set(&p, "magnet.parts[0].rotation[0]", "0");
+    set(&p, "field.uniform[2]", "10 mT");
+    const double r[2] = {9.5e-3, 6.35e-3}, mu_0 = 2e-7 * TWO_PI, w = TWO_PI * 200;
+    const double m = 7500 * 2 * TWO_PI / 3 * r[1] * r[1] * r[1], inertia = 0.4 * m * r[1] * r[1];
+    double moment[2], near = 0.02, far = 0.1;
+    for (int i = 0; i < 2; ++i)
+        moment[i] = 2 * TWO_PI / 3 * r[i] * r[i] * r[i] * 1.2 / mu_0;
+    const double k = mu_0 / (2 * TWO_PI) * moment[0] * moment[1];
+    for (int i = 0; i < 60; ++i) {
+        const double z = 0.5 * (near + far);
+        const double lift = 3 * k * k / (w * w * pow(z, 7)) * (1 / inertia + 12 / (m * z * z));
+        *(lift > m * 9.81 ? &near : &far) = z;
+    }
+    fst_levitation guess = {.height_mm = near * 1e3};
+    const double circle = -3 * k / (m * w * w * pow(near, 4));
+    guess.state[0] = circle / p.magnet_half_length;
+    guess.state[2] = near / p.magnet_half_length;
+    guess.state[4] = w / p.friction_gamma * guess.state[0];
+    guess.state[8] = 1.0; /* so the field is: its pole down, as the moment of the sphere would turn */
+    guess.state[6] = -k / (inertia * w * w * near * near * near);
+    guess.state[11] = 0.0;
+    const fst_params there = at_place(p, &guess);
+    const fst_world_orbit orbit = orbit_of(&there);
+    const double z = orbit.state[2] * p.magnet_half_length;
+    CHECK_CLOSE(z / near, 1, 0.02);
+    assert_false(orbit.stable);
+    const double growth = log(hypot(orbit.multipliers[0][0], orbit.multipliers[0][1])) * 200;
+    CHECK_WITHIN(growth, 18, 26); /* per second */
+}
+
 /* The value of the only special point of a branch of a kind. */
 static double special_of(const fst_params *p, fst_branch_kind kind, double from, double to,
                          fst_special_type type, double side)
@@ -213,6 +252,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_multipliers_are_exponentials),
+        cmocka_unit_test(test_straight_rotor),
         cmocka_unit_test(test_branches_agree),
         cmocka_unit_test(test_differences),
     };
