@@ -72,6 +72,7 @@ enum { WAITS, REFUSED, REFUSED_IF_DRY };
 #define NO_PLATE "plate.shape", "none", "flat or bowl", REFUSED
 #define NO_FLUID "medium.density", "", "one", REFUSED
 #define NO_WAVE "drive.waveform", "steady|oscillating|chirp|table|carried", "wave", REFUSED
+#define NOT_CARRIED "drive.waveform", "steady|oscillating|chirp|table|wave", "carried", REFUSED
 #define NO_LINES "magnet.shape", "parts|grid", "lines", REFUSED
 
 static const struct effect {
@@ -110,6 +111,10 @@ static const struct effect {
     {"wave.amplitude", NO_WAVE},
     {"wave.ratio", NO_WAVE},
     {"plate.tilt", "plate.shape", "none", "flat or bowl", REFUSED},
+    {"plate.tilt_azimuth", "plate.tilt", "0", "one above 0", REFUSED},
+    {"drive.velocity[0]", NOT_CARRIED},
+    {"drive.velocity[1]", NOT_CARRIED},
+    {"drive.velocity[2]", NOT_CARRIED},
     {"friction.mu", NO_PLATE},
     {"friction.mu_static", NO_PLATE},
     {"friction.rolling_resistance", NO_PLATE},

@@ -122,6 +122,9 @@ class Worlds(Case):
             self.assertAlmostEqual(air["final_state"][place], flat["final_state"][k], delta=1e-7)
             self.assertAlmostEqual(bowl["final_state"][place], flat["final_state"][k], delta=1e-2)
         none = json.loads(self.good("run", "--set", "run.periods=20", "--set", "medium.drag_rate=0", "--json"))
+        radii = [json.loads(self.good("run", "--set", "magnet.b0=7.3 mT", "--set", f"field.uniform[2]={field}", "--json"))["mean_r"]
+                 for field in ("0", "-50e-6")]  # that of the Earth shifts <r> by 0.1 to 0.2 %
+        self.assertLess(abs(radii[1] / radii[0] - 1 + 0.0015), 0.0006)
         self.assertEqual(none["final_state"], flat["final_state"])
 
     def test_orbits_and_locked_states(self):
@@ -164,6 +167,8 @@ class Worlds(Case):
                              ("larger than the bead", "plate.shape=bowl", "plate.bowl_radius=2mm"),
                              ("plate.bowl_radius has no effect", "plate.bowl_radius=1"),
                              ("without medium.density", "medium.drag_coefficient=0.4"),
+                             ("choose one above 0", "plate.tilt_azimuth=3"),
+                             ("choose carried", "drive.velocity[1]=1"),
                              ("say", "medium.viscosity=1e-3", "medium.drag_rate=1"),
                              ("pulls the bead off", "plate.gravity=-9.81"),
                              ("start.position[2]", "plate.shape=none"),
