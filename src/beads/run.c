@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/bracket.h"
 #include "base/constants.h"
 #include "base/error.h"
 #include "base/grow.h"
@@ -21,6 +22,7 @@
 #include "beads/setup.h"
 #include "beads/steps.h"
 
+enum { DENSE_ROW = (BEADS_DIM + 1) / 2 * 2 };
 static const double LEAST_STEPS = 20, MOST_STEPS = 1e7;
 
 fst_beads_options fst_default_beads_options(void)
@@ -111,6 +113,25 @@ static fst_status tell_sample(run *r, double t, double *y, int count, const fst_
     return r->options->sample(r->options->user, &sample, error);
 }
 
+/* The fraction of the exact step, which takes the time `whole`, at which the time `part` of it has passed.  Where dry
+ * friction has steps measured in theta (flow.c), time is one of their numbers, and no straight line. */
+static double fraction_at(const run *r, double part, double whole)
+{
+    enum { MOST = 60, HALVED = 4 };
+    static const double CLOSE = 1e-14;
+    const int time = FST_BEAD_NUMBERS * r->world.count + BEADS_TIME;
+    fst_bracket z = {0.0, 1.0, -part, whole - part, 0};
+    double x = fmin(part / whole, 1.0), passed;
+    for (int i = 1; i < MOST && x > z.lo && x < z.hi; ++i) {
+        beads_method_evaluate_dense(1, &r->flow.step.dense[0][time], DENSE_ROW, x, &passed);
+        if (fabs(passed - part) <= CLOSE * whole)
+            break;
+        fst_bracket_take(&z, x, passed - part);
+        x = i % HALVED == 0 ? 0.5 * (z.lo + z.hi) : fst_bracket_next(&z);
+    }
+    return x;
+}
+
 /* Tell the samples of the exact step from the time `from` to `to`, by its dense output. */
 static fst_status tell_exact(run *r, double from, double to, fst_error *error)
 {
@@ -130,8 +151,8 @@ static fst_status tell_exact(run *r, double from, double to, fst_error *error)
         if (r->sampled == 0)
             memcpy(y, r->state, numbers * sizeof *y);
         else
-            beads_method_evaluate_dense((int)numbers, &r->flow.step.dense[0][0], (BEADS_DIM + 1) / 2 * 2,
-                                        fmin((next - from) / (to - from), 1.0), y);
+            beads_method_evaluate_dense((int)numbers, &r->flow.step.dense[0][0], DENSE_ROW,
+                                        fraction_at(r, next - from, to - from), y);
         y[numbers + BEADS_TIME] = fmin(next, to) - r->world.now;
         beads_look_at(&r->world, modes, y, &look);
         const int count = closed_contacts(&r->world, modes, &look, touches);

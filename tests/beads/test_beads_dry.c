@@ -487,6 +487,49 @@ static void test_runs(void **unused)
     fst_beads_free(&result);
 }
 
+typedef struct watched {
+    fst_model *model;
+    double start[FST_STATE_SIZE], worst;
+    int count;
+} watched;
+
+static fst_status compare_sample(void *user, const fst_beads_sample *sample, fst_error *error)
+{
+    watched *w = user;
+    double alone[FST_STATE_SIZE];
+    (void)error;
+    if (sample->t > 0) {
+        state_after(w->model, 1e-13, w->start, sample->t, alone);
+        w->worst = fmax(w->worst, greatest_difference(sample->states, alone, 2));
+        w->worst = fmax(w->worst, greatest_difference(sample->states + BEADS_N, alone + FST_NX, 3));
+    }
+    ++w->count;
+    return FST_OK;
+}
+
+/* Each sample is the motion at the sample's time, also within steps that a dying slip measures by another time. */
+static void test_samples(void **unused)
+{
+    (void)unused;
+    fst_params bead = dry_params(10.7, 0.2);
+    bead.run_periods = 3;
+    bead.run_discard = 1;
+    bead.run_rtol = 1e-12;
+    bead.run_samples = 32;
+    watched w = {.model = model_of(&bead)};
+    start_of(&bead, w.model, w.start);
+    fst_beads_options options = fst_default_beads_options();
+    options.sample = compare_sample;
+    options.user = &w;
+    fst_beads_result result;
+    fst_error error = {FST_OK, "", ""};
+    assert_int_equal(fst_beads_run(&bead, 1, &options, &result, &error), FST_OK);
+    assert_true(w.count == 97 && result.counts[FST_BEAD_EVENT_STICK] > 3);
+    CHECK_CLOSE(w.worst, 0, 1e-10);
+    fst_beads_free(&result);
+    fst_model_free(w.model);
+}
+
 static void check_refused(const fst_params *beads, const fst_beads_options *options, const char *key)
 {
     fst_beads_result result;
@@ -527,7 +570,7 @@ int main(void)
         cmocka_unit_test(test_rolling_pair), cmocka_unit_test(test_impact),
         cmocka_unit_test(test_painleve),     cmocka_unit_test(test_regularised),
         cmocka_unit_test(test_redundant),    cmocka_unit_test(test_runs),
-        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_samples),      cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
