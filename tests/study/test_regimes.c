@@ -393,7 +393,7 @@ static void test_festoons_of_a_known_symmetry(void **unused)
         fail_msg("\"%s\" lacks \"%s\"", first, both);
 }
 
-/* Beyond the end of its branch at 168.5 Hz counter-rotation lingers for thousands of turns, in ever wider
+/* Beyond the end of its branch at 168.58 Hz counter-rotation lingers for thousands of turns, in ever wider
  * circles. */
 static void test_slowly_lost(void **unused)
 {
