@@ -1,6 +1,6 @@
 /* dry_siconos.c - the job of dry_peers.h by Moreau-Jean steps with Siconos' solver of the contact. */
 #include "dry_peers.h"
-#include "moreau_jean.h"
+#include "helpers/moreau_jean.h"
 
 int dry_by_siconos(const dry_job *job, const dry_setting *setting, double *mean_r, double *periods)
 {

@@ -140,7 +140,7 @@ static fst_status begin_motions(camera *c, const fst_table *table, const fst_bea
     const fst_camera_options *o = c->options;
     if (list && list->scene.plate_shape != FST_PLATE_FLAT)
         return fst_fail(error, FST_BAD_INPUT, "plate.shape",
-                        "a camera looks down on a flat plate, and plate.shape is %s: film it without --camera",
+                        "a camera looks down on a flat plate, and plate.shape is %s: make a drawn film of it",
                         list->scene.plate_shape == FST_PLATE_NONE ? "none" : "bowl");
     fst_status status = list ? fst_film_cast_tables(&c->cast, list, o->from, o->to, error)
                              : fst_film_cast_table(&c->cast, table, o->from, o->to, error);
