@@ -136,9 +136,9 @@ fst_status branch_of_beads(const arguments *given, const fst_params *scene, cons
     options.progress = &progress;
     fst_status status = refuse(given, of_one, "--json prints the branch of their locked state", error);
     if (status == FST_OK && o->kind != FST_BRANCH_LOCKED)
-        status = fail(error, FST_BAD_INPUT, "--kind",
-                      "of several beads, or of one in a world, the locked state is followed over a parameter: "
-                      "--kind locked");
+        status = fail(error, FST_BAD_INPUT, "--kind", "with %s a branch is --kind locked%s",
+                      scene->bead_count ? "several beads" : fst_key_of_world(scene),
+                      scene->bead_count ? "" : ", levitating or driven");
     if (status != FST_OK)
         return status;
     progress_begin(&line);
