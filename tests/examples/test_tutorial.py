@@ -23,6 +23,7 @@ class Commands(unittest.TestCase):
         """Run the commands of a page in one folder."""
         self.assertTrue(steps)
         with tempfile.TemporaryDirectory(prefix="festoon-tutorial-") as folder:
+            os.symlink(SOURCE / "examples", os.path.join(folder, "examples"))
             for command, lines in steps:
                 if re.search("festoon (plot|movie) ", command) and not can_draw(command):
                     continue
