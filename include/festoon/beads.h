@@ -71,8 +71,8 @@ typedef struct fst_bead_touch {
         force; /* per mass of the first bead of the list, l gamma^2; of stepping: the mean over the last step */
 } fst_bead_touch;
 
-/* Where contacts leave no motion, or several (Painleve; dry friction alone), or events that do not end: those that touched
- * then. */
+/* Why an exact run could not go on: its contacts allow no motion, or several (the paradox of Painleve, under dry friction
+ * alone), or impacts follow each other without end.  It lists the contacts that touched then. */
 typedef struct fst_beads_paradox {
     double time; /* 1/gamma; NAN: there was none */
     int motions; /* 0: no state of these contacts is consistent; 2: two are, with different accelerations; 1: more than 1000

@@ -26,17 +26,22 @@ from ._native import ffi as _ffi
 from ._native import lib as _lib
 from ._native import text_of as _text_of
 from ._quantities import UNSET
-from .beads import Beads, BeadsRun, BeadsTrajectory, WorldRun
+from .beads import Beads
 from .beads_orbits import BeadsBranch, BeadsLocked, BeadsOrbit
+from .beads_runs import BeadsRun, WorldRun
+from .beads_trajectories import BeadsTrajectory
 from .bead import Bead, Groups, MaterialWarning
+from .branches import Branch
 from .files import export, paper, read, schema
 from .films import track
 from .flows import Flow
-from .measuring import Fit, Measurement, Track, fit, measure, read_track, save_points
-from .orbits import Branch, Locked, LockedStates, Lyapunov, Orbit
+from .fitting import Fit, fit
+from .measuring import Measurement, Track, measure, read_track, save_points
+from .orbits import Locked, LockedStates, Lyapunov, Orbit
 from .runs import Run
 from .sweeping import sweep
-from .sweeps import Sweep, SweepTable
+from .sweep_tables import SweepTable
+from .sweeps import Sweep
 from .trajectories import Trajectory
 
 if TYPE_CHECKING:

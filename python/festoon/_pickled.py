@@ -77,3 +77,24 @@ class Told:
 
     def __hash__(self) -> int:
         return hash(json.dumps(self._facts(), sort_keys=True, default=repr))
+
+
+class Printed(Told):
+    """A result that holds what a command prints with --json."""
+
+    _told: Dict[str, Any]
+
+    def to_dict(self) -> Dict[str, Any]:
+        """What the program prints with --json.
+
+        Returns
+        -------
+        dict
+            Keys and numbers as the program prints them; None where a number is undefined.
+
+        Raises
+        ------
+        OutOfMemory
+            Where there is no memory for it.
+        """
+        return dict(self._told)

@@ -8,16 +8,17 @@ from typing import TYPE_CHECKING, Any, Dict, FrozenSet, Iterable, Iterator, List
 
 import numpy as np
 
-from ._errors import BadInput, FestoonError
+from ._errors import BadInput
 from ._native import Watch, call, ffi, lib, path_bytes, rows_of, take_text, text_of
 from ._progress import Progress
-from ._quantities import UNSET, Value, value_text
+from ._quantities import UNSET, value_text
 from ._tables import PARAMETERS, SHORT, Parameters
 
 if TYPE_CHECKING:
+    from .branches import Branch
     from .flows import Flow
     from .lab import Lab
-    from .orbits import Branch, LockedStates, Lyapunov, Orbit
+    from .orbits import LockedStates, Lyapunov, Orbit
     from .runs import Run
     from .sweeps import Sweep
 
@@ -609,14 +610,14 @@ class Bead(Parameters):
         >>> run.regime, run.symmetry
         ('counter-rotating', 'S1')
         """
-        from . import beads, runs
+        from . import beads_runs, runs
 
         asked = self.replace(run__periods=periods, run__discard=discard)._asked()
         world = lib.fst_key_of_world(asked._params)
         if world and ramp is None:
             if sample_from:
                 raise BadInput("sample_from", f"it is not for a bead in a world ({text_of(world)})")
-            return beads._run(asked, trajectory, fps, None if start is None else [start], progress)  # type: ignore[no-any-return]
+            return beads_runs.run(asked, trajectory, fps, None if start is None else [start], progress)  # type: ignore[no-any-return]
         return runs.run(
             asked,
             trajectory=trajectory,
@@ -735,9 +736,9 @@ class Bead(Parameters):
         Interrupted
             After Ctrl-C; `partial` is what was done by then.
         """
-        from . import orbits
+        from . import branches
 
-        return orbits.branch(self._asked(), kind, progress, keywords)
+        return branches.branch(self._asked(), kind, progress, keywords)
 
     def lyapunov(self, *, progress: Progress = None) -> "Lyapunov":
         """The spectrum of Lyapunov exponents: a `Lyapunov`.

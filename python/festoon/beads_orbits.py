@@ -7,10 +7,10 @@ import numpy as np
 
 from ._errors import BadInput
 from ._native import Watch, ffi, lent, lib, options_of, take_text
-from ._pickled import Told
+from ._pickled import Printed
 from ._progress import Progress
 from .bead import known_key
-from .orbits import range_of
+from .branches import range_of
 
 if TYPE_CHECKING:
     from .beads import Beads
@@ -20,29 +20,14 @@ def _numbers(pairs: Any) -> Any:
     return lent(np.array([complex(*pair) for pair in pairs]))
 
 
-class _Found(Told):
-    """Numbers are scaled (l, 1/gamma), those that the program prints with --json."""
+class _Found(Printed):
+    """What was found of several beads.  Its numbers are scaled (l, 1/gamma); the program prints the same with --json."""
 
     #: The beads that were asked.
     setup: "Beads"
 
     def __init__(self, setup: "Beads", told: Dict[str, Any]) -> None:
         self.setup, self._told = setup, told
-
-    def to_dict(self) -> Dict[str, Any]:
-        """What the program prints with --json.
-
-        Returns
-        -------
-        dict
-            Keys and numbers as the program prints them; None where a number is undefined.
-
-        Raises
-        ------
-        OutOfMemory
-            Where there is no memory for it.
-        """
-        return dict(self._told)
 
     def __reduce__(self) -> Any:
         return type(self), (self.setup, self._told)

@@ -8,8 +8,8 @@ from typing import Any, Dict, Iterable, List, Optional, Union
 from ._errors import BadInput, FestoonError, Unavailable
 from ._native import call, ffi, lib, path_bytes, strings, take_text
 from ._quantities import units_of
-from .beads import read as read_beads
-from .orbits import read_branch
+from .beads_trajectories import read as read_beads
+from .branches import read_branch
 from .sweeps import read_sweep
 from .trajectories import read as read_trajectory
 
@@ -149,10 +149,12 @@ def read(path: Path) -> Any:
         After Ctrl-C.
     """
     name = os.fspath(path)
-    if lib.fst_is_sweep(path_bytes(path)) or name.endswith(".db"):
+    is_sweep, has_beads = ffi.new("int *"), ffi.new("int *")
+    if not name.endswith(".db"):
+        call(lib.fst_is_sweep, path_bytes(path), is_sweep)
+    if is_sweep[0] or name.endswith(".db"):
         return read_sweep(path)
     if name.endswith(".json"):
         return read_branch(path)
-    has_beads = ffi.new("int *")
     call(lib.fst_trajectory_has_beads, path_bytes(path), has_beads)
     return read_beads(path) if has_beads[0] else read_trajectory(path)

@@ -180,7 +180,7 @@ class Held:
 @pytest.mark.parametrize("name", ["fst_track_read", "fst_measure_track", "fst_fit_track", "fst_trajectory_read"])
 def test_ctrl_c_is_obeyed_while_a_function_does_not_ask(name, track, monkeypatch, tmp_path):
     """What the function still does is not seen: the track stays as it was, and the same call works afterwards."""
-    from festoon import measuring, trajectories
+    from festoon import fitting, measuring, trajectories
 
     read = fs.read_track(track)
     path = tmp_path / "run.csv"
@@ -191,14 +191,14 @@ def test_ctrl_c_is_obeyed_while_a_function_does_not_ask(name, track, monkeypatch
         "fst_fit_track": lambda: fs.fit(track=read, free=["kappa"], drive="10.7 Hz"),
         "fst_trajectory_read": lambda: fs.read(path),
     }
-    place = trajectories if name == "fst_trajectory_read" else measuring
+    place = {"fst_trajectory_read": trajectories, "fst_fit_track": fitting}.get(name, measuring)
     held = Held(place.lib, name)
     before = copy.deepcopy(read)
     old = signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         with monkeypatch.context() as patch:
             patch.setattr(place, "lib", held)
-            sender = threading.Thread(target=lambda: (held.begun.wait(), os.kill(os.getpid(), signal.SIGINT)))
+            sender = threading.Thread(target=lambda: (held.begun.wait(), os.kill(os.getpid(), signal.SIGINT)), daemon=True)
             sender.start()
             with pytest.raises(fs.Interrupted):
                 calls[name]()

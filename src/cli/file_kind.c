@@ -100,10 +100,11 @@ static const file_kind *kind_of(const char *path)
     if (!file)
         return NULL;
     const size_t size = fread(head, 1, HEAD_SIZE, file);
+    const int unread = ferror(file);
     (void)fclose(file);
     head[size] = '\0';
     if (size == 0)
-        return &empty;
+        return unread ? NULL : &empty;
     const char *line = head;
     while (*line == '#' && strchr(line, '\n'))
         line = strchr(line, '\n') + 1;

@@ -169,12 +169,16 @@ static fst_status plot_points(const arguments *given, const char *path, const ch
 {
     fst_points_fit fit;
     char remark[96];
-    if (refuse_others(given, "points", "a figure with measured points", error) != FST_OK)
-        return FST_BAD_INPUT;
-    if (!ends_in(path, ".json") && !fst_is_sweep(path) && !ends_in(path, ".db"))
-        return fail(error, FST_BAD_INPUT, path,
-                    "--points belongs to sweeps and branches; this file is neither");
-    const fst_status status = fst_figure_points(path, option_value(given, "points"), to, &fit, error);
+    int is_sweep = 0;
+    fst_status status = refuse_others(given, "points", "a figure with measured points", error);
+    if (status == FST_OK && !ends_in(path, ".json") && !ends_in(path, ".db")) {
+        status = fst_is_sweep(path, &is_sweep, error);
+        if (status == FST_OK && !is_sweep)
+            status = fail(error, FST_BAD_INPUT, path,
+                          "--points belongs to sweeps and branches; this file is neither");
+    }
+    if (status == FST_OK)
+        status = fst_figure_points(path, option_value(given, "points"), to, &fit, error);
     if (status != FST_OK)
         return status;
     (void)snprintf(remark, sizeof remark, ": chi^2 = %.6g of %d measured numbers (%d in the table)", fit.chi2,
@@ -215,12 +219,14 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         return plot_points(given, path, to, error);
     if (ends_in(path, ".json")) /* a branch */
         return plot_branch(given, path, to, error);
-    if (fst_is_sweep(path) || ends_in(path, ".db"))
-        return plot_sweep(given, path, to, error);
     char words[KEYS_SIZE];
-    int has_beads = 0;
-    fst_status status = refuse_others(given, "kind|key|units|colour|arrows|no-arrows|inset|frame|from|to|zoom",
-                                      "a trajectory", error);
+    int is_sweep = ends_in(path, ".db"), has_beads = 0;
+    fst_status status = is_sweep ? FST_OK : fst_is_sweep(path, &is_sweep, error);
+    if (status == FST_OK && is_sweep)
+        return plot_sweep(given, path, to, error);
+    if (status == FST_OK)
+        status = refuse_others(given, "kind|key|units|colour|arrows|no-arrows|inset|frame|from|to|zoom",
+                               "a trajectory", error);
     if (status == FST_OK)
         status = read_figure(given, &figure, error);
     if (status == FST_OK)

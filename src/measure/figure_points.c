@@ -335,9 +335,12 @@ fst_status fst_figure_points(const char *results, const char *points_path, const
     pieces p = {.room = 0};
     fst_points points = {0};
     fst_points_fit found = {0.0, 0, 0};
+    int is_sweep = 0;
     fst_status status = fst_points_read(points_path, &points, error);
     if (status == FST_OK)
-        status = fst_is_sweep(results) ? take_sweep(results, &p, error) : take_branch(results, &p, error);
+        status = fst_is_sweep(results, &is_sweep, error);
+    if (status == FST_OK)
+        status = is_sweep ? take_sweep(results, &p, error) : take_branch(results, &p, error);
     for (int q = 0; q < FST_MEASURED_COUNT && status == FST_OK; ++q)
         add_chi2(&p, &points, q, &found);
     if (status == FST_OK && found.all == 0)

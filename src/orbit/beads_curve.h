@@ -1,4 +1,4 @@
-/* beads_curve.h - equilibria of beads followed over one parameter, for whoever keeps what is found. */
+/* beads_curve.h - follows an equilibrium or a periodic motion of beads over one parameter; the caller keeps the points. */
 #ifndef FST_ORBIT_BEADS_CURVE_H
 #define FST_ORBIT_BEADS_CURVE_H
 

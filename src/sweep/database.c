@@ -163,11 +163,17 @@ static uint32_t number_at(const unsigned char *bytes)
 
 static const char SIGNATURE[16] = "SQLite format 3"; /* with the zero behind it */
 
-int fst_database_begins(int descriptor)
+static fst_status unreadable(const char *path, fst_error *error)
+{
+    return fst_fail(error, FST_IO, path, "reading this file failed: %s", strerror(errno));
+}
+
+fst_status fst_database_begins(int descriptor, const char *path, int *begins, fst_error *error)
 {
     char bytes[sizeof SIGNATURE];
     const ssize_t got = fst_read_at(descriptor, bytes, sizeof bytes, 0);
-    return got == (ssize_t)sizeof bytes && memcmp(bytes, SIGNATURE, sizeof bytes) == 0;
+    *begins = got == (ssize_t)sizeof bytes && memcmp(bytes, SIGNATURE, sizeof bytes) == 0;
+    return got < 0 ? unreadable(path, error) : FST_OK;
 }
 
 fst_status fst_database_head(int descriptor, const char *path, int writable, char mark[FST_MARK_SIZE],
@@ -179,7 +185,7 @@ fst_status fst_database_head(int descriptor, const char *path, int writable, cha
                                   : "give the name of a file that fst_sweep() made";
     const ssize_t have = fst_read_at(descriptor, page, sizeof page, 0);
     if (have < 0)
-        return fst_fail(error, FST_IO, path, "reading this file failed: %s", strerror(errno));
+        return unreadable(path, error);
     mark[0] = '\0';
     if (have < HEAD || memcmp(page, SIGNATURE, sizeof SIGNATURE) != 0)
         return fst_fail(

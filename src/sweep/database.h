@@ -20,8 +20,8 @@ int fst_database_is_damage(int code);
  * name as it is.  The caller frees it. */
 fst_status fst_database_path(const char *path, char **absolute, fst_error *error);
 
-/* Whether a file begins as every database of SQLite does. */
-int fst_database_begins(int descriptor);
+/* Whether a file begins as every database of SQLite does.  FST_IO: reading it failed. */
+fst_status fst_database_begins(int descriptor, const char *path, int *begins, fst_error *error);
 
 /* Check the first bytes of a file before SQLite sees it, because SQLite would change the journal of a foreign
  * database.  FST_BAD_INPUT: no database of a sweep, or one of an older format.  `writable` says that a sweep is

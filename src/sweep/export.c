@@ -374,14 +374,16 @@ fst_status fst_sweep_export(const char *path, fst_export_format format, const ch
     return status;
 }
 
-int fst_is_sweep(const char *path)
+fst_status fst_is_sweep(const char *path, int *is_sweep, fst_error *error)
 {
     int descriptor;
-    if (fst_lock_check_own(path, path, NULL) != FST_OK)
-        return 1;
-    if (fst_open_regular(path, &descriptor, NULL) != FST_OK)
-        return 0;
-    const int begins = fst_database_begins(descriptor);
+    *is_sweep = fst_lock_check_own(path, path, NULL) != FST_OK;
+    if (*is_sweep)
+        return FST_OK;
+    fst_status status = fst_open_regular(path, &descriptor, error);
+    if (status != FST_OK)
+        return status;
+    status = fst_database_begins(descriptor, path, is_sweep, error);
     (void)close(descriptor);
-    return begins;
+    return status;
 }

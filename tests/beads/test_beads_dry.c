@@ -421,13 +421,7 @@ static void test_regularised(void **unused)
     fst_model *model = model_of(&params);
     beads_world world = with_friction(paper_beads(2, model, 0.0), 0.2, 0.1);
     double state[NUMBERS] = {0}, ends[3][NUMBERS], time = 0.4;
-    for (int i = 0; i < 2; ++i) {
-        double *bead = bead_of(state, i);
-        bead[0] = i ? EPS : -EPS;
-        bead[BEADS_V + 1] = 0.1;
-        bead[BEADS_N] = -sqrt(0.99);
-        bead[BEADS_N + 1] = 0.1;
-    }
+    put_pair_across(state, EPS);
     beads_flow *flow = begin_beads(&world, state, 1e-12);
     assert_true(flow->modes.contact[0] && flow->modes.contact[1] && flow->modes.contact[2]);
     go_to(flow, time);

@@ -87,13 +87,7 @@ static void test_lasting(void **unused)
     const beads_world world = paper_beads(2, model, 1.0);
     double state[NUMBERS] = {0}, ends[3][NUMBERS];
     const double time = 1.0;
-    for (int i = 0; i < 2; ++i) {
-        double *bead = bead_of(state, i);
-        bead[0] = i ? EPS : -EPS;
-        bead[BEADS_V + 1] = 0.1;
-        bead[BEADS_N] = -sqrt(0.99);
-        bead[BEADS_N + 1] = 0.1;
-    }
+    put_pair_across(state, EPS);
     beads_flow *flow = begin_beads(&world, state, 1e-12);
     const double held[3] = {flow->start.held[0], flow->start.held[1], flow->start.held[2]};
     go_to(flow, time);

@@ -16,6 +16,23 @@ static void set(fst_params *p, const char *key, const char *text)
         fail_msg("%s", error.sentence);
 }
 
+static void set_of_coil(fst_params *p, int coil, const char *what, const char *text)
+{
+    char key[40];
+    (void)snprintf(key, sizeof key, "coils[%d].%s", coil, what);
+    set(p, key, text);
+}
+
+/* Two coils with a current of 1 Hz. */
+static void set_coils(fst_params *p, const char *radius, const char *current)
+{
+    for (int i = 0; i < 2; ++i) {
+        set_of_coil(p, i, "radius", radius);
+        set_of_coil(p, i, "ac", current);
+        set_of_coil(p, i, "frequency", "1 Hz");
+    }
+}
+
 static fst_model *field_model(const fst_params *p)
 {
     fst_model *model;
@@ -268,18 +285,10 @@ static double mean_rate(double drag, double rate, double from_rate, double until
 {
     fst_params p = in_tesla();
     set(&p, "magnet.shape", "parts");
+    set_coils(&p, "80 mm", "100 A");
     for (int i = 0; i < 2; ++i) {
-        char key[40];
-        (void)snprintf(key, sizeof key, "coils[%d].radius", i);
-        set(&p, key, "80 mm");
-        (void)snprintf(key, sizeof key, "coils[%d].axis[%d]", i, i);
-        set(&p, key, "1");
-        (void)snprintf(key, sizeof key, "coils[%d].axis[2]", i);
-        set(&p, key, "0");
-        (void)snprintf(key, sizeof key, "coils[%d].ac", i);
-        set(&p, key, "100 A");
-        (void)snprintf(key, sizeof key, "coils[%d].frequency", i);
-        set(&p, key, "1 Hz");
+        set_of_coil(&p, i, i ? "axis[1]" : "axis[0]", "1");
+        set_of_coil(&p, i, "axis[2]", "0");
     }
     set(&p, "coils[1].phase", "-90 deg");
     fst_model *model = field_model(&p);
@@ -334,15 +343,7 @@ static void test_rolling_step_out(void **unused)
         const double omega = (above ? 1.03 : 0.97) * lost, lag = asin(fmin(omega / lost, 1));
         fst_params p = in_tesla();
         set(&p, "magnet.shape", "parts");
-        for (int i = 0; i < 2; ++i) {
-            char key[40];
-            (void)snprintf(key, sizeof key, "coils[%d].radius", i);
-            set(&p, key, "9 m");
-            (void)snprintf(key, sizeof key, "coils[%d].ac", i);
-            set(&p, key, "10000 A");
-            (void)snprintf(key, sizeof key, "coils[%d].frequency", i);
-            set(&p, key, "1 Hz");
-        }
+        set_coils(&p, "9 m", "10000 A");
         set(&p, "coils[0].axis[0]", "1");
         set(&p, "coils[0].axis[2]", "0");
         set(&p, "coils[1].phase", "90 deg"); /* B = b (cos Omega t, 0, -sin Omega t) */

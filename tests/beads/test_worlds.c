@@ -4,6 +4,7 @@
  * tests: model/worlds.c beads/world.c beads/look.c beads/events.c */
 #include <complex.h>
 
+#include "levitators.h"
 #include "some_beads.h"
 
 static const double EPS = 2.5 / 23;
@@ -174,33 +175,6 @@ static void test_fall_into_a_bowl(void **unused)
 
 /* ------------------------------------------------------------------ no plate */
 
-static void set(fst_params *p, const char *key, const char *value)
-{
-    fst_error error = {FST_OK, "", ""};
-    if (fst_params_set(p, key, value, &error) != FST_OK)
-        fail_msg("%s", error.sentence);
-}
-
-/* A rotor of 19 mm whose moment lies `tilt` degrees under the plane of its turn, and a floater of 12.7 mm, 1.2 T and
- * 7500 kg/m^3, at 200 Hz. */
-static fst_model *levitator(const char *tilt)
-{
-    static const char *const keys[][2] = {{"magnet.shape", "parts"},
-                                          {"magnet.parts[0].kind", "sphere"},
-                                          {"magnet.parts[0].size[0]", "19 mm"},
-                                          {"magnet.parts[0].remanence[0]", "1.2 T"},
-                                          {"magnet.parts[0].rotation[2]", "-1"},
-                                          {"bead.density", "7500"},
-                                          {"bead.radius", "6.35 mm"},
-                                          {"bead.remanence", "1.2 T"},
-                                          {"drive.frequency", "200 Hz"}};
-    fst_params p = fst_default_params();
-    for (size_t i = 0; i < sizeof keys / sizeof *keys; ++i)
-        set(&p, keys[i][0], keys[i][1]);
-    set(&p, "magnet.parts[0].rotation[0]", tilt);
-    return model_of(&p);
-}
-
 /* The world of a model without plate and gravity, with drags per second. */
 static beads_world levitation(const fst_model *model, double drag, double spin_drag)
 {
@@ -232,7 +206,8 @@ static void test_levitation(void **unused)
     static const struct {
         double weight, height, tilt, circle;
     } cases[] = {{0, 23.772, NAN, NAN}, {-1, 25.056, 6.35, 0.210}, {1, 23.021, NAN, NAN}};
-    fst_model *model = levitator("5 deg");
+    const fst_params p = rotor_and_floater("5 deg");
+    fst_model *model = model_of(&p);
     const fst_groups g = fst_model_groups(model);
     for (int i = 0; i < 3; ++i) {
         beads_world world = levitation(model, 10, 10);
@@ -261,7 +236,8 @@ static void test_levitation(void **unused)
 static void test_how_it_ends(void **unused)
 {
     (void)unused;
-    fst_model *model = levitator("5 deg");
+    const fst_params p = rotor_and_floater("5 deg");
+    fst_model *model = model_of(&p);
     const fst_groups g = fst_model_groups(model);
     for (int stays = 0; stays < 2; ++stays) {
         beads_world world = levitation(model, stays ? 10 : 3, stays ? 10 : 3);

@@ -16,6 +16,18 @@ static inline double *bead_of(double *state, int i)
     return state + FST_BEAD_NUMBERS * i;
 }
 
+/* Two beads of the radius eps that touch beside the axis and move along y, with poles that lie nearly across. */
+static inline void put_pair_across(double *state, double eps)
+{
+    for (int i = 0; i < 2; ++i) {
+        double *bead = bead_of(state, i);
+        bead[0] = i ? eps : -eps;
+        bead[BEADS_V + 1] = 0.1;
+        bead[BEADS_N] = -sqrt(0.99);
+        bead[BEADS_N + 1] = 0.1;
+    }
+}
+
 /* Beads of the paper's size and mass without magnet, plate, gravity and friction. */
 static inline beads_world free_beads(int count)
 {

@@ -6,37 +6,7 @@
 
 #include <festoon/beads.h>
 
-#include "physics.h"
-
-static void set(fst_params *p, const char *key, const char *value)
-{
-    fst_error error = {FST_OK, "", ""};
-    if (fst_params_set(p, key, value, &error) != FST_OK)
-        fail_msg("%s", error.sentence);
-}
-
-/* A rotor of 19 mm and a floater of 12.7 mm, 1.2 T, 7500 kg/m^3, 200 Hz, drags of 1/s. */
-static fst_params levitator(const char *tilt, const char *gravity)
-{
-    static const char *const keys[][2] = {{"magnet.shape", "parts"},
-                                          {"magnet.parts[0].kind", "sphere"},
-                                          {"magnet.parts[0].size[0]", "19 mm"},
-                                          {"magnet.parts[0].remanence[0]", "1.2 T"},
-                                          {"magnet.parts[0].rotation[2]", "-1"},
-                                          {"bead.density", "7500"},
-                                          {"bead.radius", "6.35 mm"},
-                                          {"bead.remanence", "1.2 T"},
-                                          {"drive.frequency", "200 Hz"},
-                                          {"plate.shape", "none"},
-                                          {"medium.drag_rate", "1"},
-                                          {"medium.spin_drag_rate", "1"}};
-    fst_params p = fst_default_params();
-    for (size_t i = 0; i < sizeof keys / sizeof *keys; ++i)
-        set(&p, keys[i][0], keys[i][1]);
-    set(&p, "magnet.parts[0].rotation[0]", tilt);
-    set(&p, "plate.gravity", gravity);
-    return p;
-}
+#include "levitators.h"
 
 /* The stable place on one side. */
 static fst_levitation place(const fst_params *p, int above)

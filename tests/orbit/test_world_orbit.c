@@ -9,43 +9,14 @@
 
 #include "beads/impact.h"
 #include "beads/setup.h"
+#include "levitators.h"
 #include "some_beads.h"
-
-static void set(fst_params *p, const char *key, const char *value)
-{
-    fst_error error = {FST_OK, "", ""};
-    if (fst_params_set(p, key, value, &error) != FST_OK)
-        fail_msg("%s", error.sentence);
-}
 
 static void set_number(fst_params *p, const char *key, double value)
 {
     char text[40];
     (void)snprintf(text, sizeof text, "%.17g", value);
     set(p, key, text);
-}
-
-/* Levitation of docs/levitation.md, with drags of 1/s. */
-static fst_params levitator(const char *gravity)
-{
-    static const char *const keys[][2] = {{"magnet.shape", "parts"},
-                                          {"magnet.parts[0].kind", "sphere"},
-                                          {"magnet.parts[0].size[0]", "19 mm"},
-                                          {"magnet.parts[0].remanence[0]", "1.2 T"},
-                                          {"magnet.parts[0].rotation[0]", "5"},
-                                          {"magnet.parts[0].rotation[2]", "-1"},
-                                          {"bead.density", "7500"},
-                                          {"bead.radius", "6.35 mm"},
-                                          {"bead.remanence", "1.2 T"},
-                                          {"drive.frequency", "200 Hz"},
-                                          {"plate.shape", "none"},
-                                          {"medium.drag_rate", "1"},
-                                          {"medium.spin_drag_rate", "1"}};
-    fst_params p = fst_default_params();
-    for (size_t i = 0; i < sizeof keys / sizeof *keys; ++i)
-        set(&p, keys[i][0], keys[i][1]);
-    set(&p, "plate.gravity", gravity);
-    return p;
 }
 
 /* Start at a place at rest in the turning frame, and tell of it in the laboratory's. */
@@ -90,7 +61,7 @@ static fst_world_orbit orbit_of(const fst_params *p)
 static void test_multipliers_are_exponentials(void **unused)
 {
     (void)unused;
-    const fst_params p = levitator("-9.81");
+    const fst_params p = levitator("5", "-9.81");
     const fst_levitation place = stable_place(&p, 1);
     const fst_params there = at_place(p, &place);
     const fst_world_orbit orbit = orbit_of(&there);
@@ -119,7 +90,7 @@ static void test_multipliers_are_exponentials(void **unused)
 static void test_straight_rotor(void **unused)
 {
     (void)unused;
-    fst_params p = levitator("9.81");
+    fst_params p = levitator("5", "9.81");
     set(&p, "magnet.parts[0].rotation[0]", "0");
     set(&p, "field.uniform[2]", "10 mT");
     const double r[2] = {9.5e-3, 6.35e-3}, mu_0 = 2e-7 * TWO_PI, w = TWO_PI * 200;
@@ -180,7 +151,7 @@ static void test_branches_agree(void **unused)
 {
     (void)unused;
     for (int above = 0; above < 2; ++above) {
-        fst_params p = levitator(above ? "9.81" : "-9.81");
+        fst_params p = levitator("5", above ? "9.81" : "-9.81");
         set(&p, "drive.frequency", above ? "160 Hz" : "164 Hz");
         const fst_levitation place = stable_place(&p, 1);
         const double from = above ? 157 : 161, to = from + 4;

@@ -34,6 +34,7 @@ import section
 from faults import FESTOON, MAP, PRELOADED, SOURCE, give_measured, read, some
 
 SHORT = ("--set", "run.periods=6", "--set", "run.discard=2", "--set", "run.samples=16")
+NO_THREADS = "cannot allocate memory for thread-local data"  # glibc's last words when it loads a library
 BROKE_DOWN = "festoon: a library that this command uses broke down, mostly because memory ran out"
 TWO_AT_ONCE = 2
 
@@ -301,7 +302,7 @@ class Campaign:
             yield ("a read fails", "read", errno.EIO, number)
 
     def few(self, total):
-        """The same of few faults: `total` allocations, each command's elsewhere, and a write and a read of each."""
+        """A shorter attack: `total` allocations fail, spread over all commands, and one write and one read of each command."""
         commands = list(self.commands.values())
         for i in range(max(total, len(commands))):
             command, at = commands[i % len(commands)], i * 0.618034 % 1
@@ -340,7 +341,7 @@ class Campaign:
                     digest != command.wanted.get(name)]
             problem = f"half an output: {', '.join(half)}" if half else None
         left = [name for name in outputs if name.endswith(".part")]
-        broke = status == 1 and BROKE_DOWN in lines[-1:]
+        broke = status == 1 and BROKE_DOWN in lines[-1:] or status == 127 and NO_THREADS in words
         if broke:  # as after a kill: the next command that writes the file removes what was left
             problem = None
         elif left:

@@ -90,7 +90,9 @@ static fst_status try_everything(void *user, double fraction, const char *what, 
         expect_own(fst_sweep_export(path, FST_EXPORT_CSV, NULL, stderr, &error), &error);
         expect_own(fst_sweep_read(path, keys, 1, &table, &error), &error);
         expect_own(fst_sweep_read_grid(path, &grid, &error), &error);
-        assert_true(fst_is_sweep(path));
+        int is_sweep = 0;
+        assert_int_equal(fst_is_sweep(path, &is_sweep, &error), FST_OK);
+        assert_true(is_sweep);
         assert_true(is_locked_by_sqlite(m->path));
     }
     return FST_OK;

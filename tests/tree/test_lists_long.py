@@ -25,8 +25,8 @@ CHOICES = {"MATERIALS": "bead.material", "DYNAMICS": "model.dynamics", "PATCHES"
 OPTIONS = {"BRANCH_KINDS": "branch --kind", "FOLLOWED_SPECIALS": "branch --follow", "FIGURES": "plot --kind",
            "FIELDS": "field --map", "SHOWN": "run --units", "ARITHMETICS": "sweep --arithmetic", "CARRIES": "sweep --carry",
            "EXPORTS": "export --dummy-exports"}
-PYTHON = {"REGIMES": "runs.REGIMES", "STOPS": "flows.STOPS", "SYMMETRIES": "runs.SYMMETRIES", "BRANCH_KINDS": "orbits.KINDS", "SPECIALS":
-          "orbits.SPECIALS", "FOLLOWED_SPECIALS": "orbits.SPECIALS", "ENDS": "orbits.ENDS", "FIGURES": "figures.KINDS",
+PYTHON = {"REGIMES": "runs.REGIMES", "STOPS": "flows.STOPS", "SYMMETRIES": "runs.SYMMETRIES", "BRANCH_KINDS": "branches.KINDS", "SPECIALS":
+          "branches.SPECIALS", "FOLLOWED_SPECIALS": "branches.SPECIALS", "ENDS": "branches.ENDS", "FIGURES": "figures.KINDS",
           "SHOWN": "_quantities.UNITS", "CARRIES": "sweeping.CARRY", "MEASURED_QUANTITIES": "_plot_points._measured()"}
 # Of these the program writes names that Python asks by number.
 NUMBERED = {"UNITS": "fst_unit_name", "ROLLING_ENDS": "fst_rolling_end_name", "MOTIONS": "fst_motion_name",
@@ -145,7 +145,7 @@ def numbered(function):
     kind = ffi.typeof(getattr(lib, function)).args[0]
     last = max(number for name, number in kind.relements.items() if not name.endswith("_COUNT"))
     return text_of(getattr(lib, function)(last))
-branch = importlib.import_module("festoon.orbits").read_branch("branch.json")
+branch = importlib.import_module("festoon.branches").read_branch("branch.json")
 print(json.dumps({{
     "names": {{table: names(place) for table, place in {PYTHON!r}.items()}},
     "numbered": {{table: numbered(function) for table, function in {NUMBERED!r}.items()}},
