@@ -393,8 +393,9 @@ def text_of(rows, survivors, few):
             "`tests/mutants/*.mutants` lists\nthem, a block for each fault. For each fault the tree is built, and its "
             "tests are run, all but the long ones, until one\nfails or hangs. Faults that compile to the same object "
             f"files do not count. The numbers are of the code with\n`FST_RESULTS_VERSION` {results_version()}.\n\n")
-    left = rows[-1][5]  # this column is written only if something is left
-    text += section.table(*([HEAD, rows] if left else [HEAD[:5] + HEAD[6:], [row[:5] + row[6:] for row in rows]]))
+    left = rows[-1][5]
+    shown = [i for i in range(len(HEAD)) if i not in (4, 5) or rows[-1][i]]  # no columns of nothing but zeros
+    text += section.table([HEAD[i] for i in shown], [[row[i] for i in shown] for row in rows])
     if left:
         text += f"\n\n{left} faults were not tried: `make mutants` goes on with them."
     text += ("\n\nFaults that no test notices (`why` in `tests/mutants` says why that is accepted):\n\n" if survivors

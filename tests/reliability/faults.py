@@ -466,9 +466,30 @@ def is_named(words, told, command, out, given):
                                                                      out in lines[0])
 
 
+KINDS = {  # of the faults that the page's table counts together; any other has a row of its own
+    "no room: disk full, quota, limit of file sizes": ("quota", "disk full", "file size limit", "small file system",
+                                                       "standard output full"),
+    "a write, sync, rename, truncation, opening, closing or reading fails": (
+        "write fails", "fsync fails", "rename fails", "truncate fails", "open fails", "close fails", "read fails"),
+    "short writes, interrupted calls": ("short writes", "interrupted calls", "interrupted reads"),
+    "directory goes away, is missing or read-only": ("directory goes away", "no such directory", "read-only directory"),
+    "gnuplot or ffmpeg killed, fails, stops, does nothing": ("helper killed", "helper fails", "helper stops half way",
+                                                             "helper does nothing"),
+    "killed, then again; two at once": ("killed, then again", "raced", "another one at work")}
+
+
+def rows_of(tally):
+    """The table's rows: a kind of fault, and its cases by outcome."""
+    kind_of = {fault: kind for kind, faults in KINDS.items() for fault in faults}
+    rows = {}
+    for fault, row in tally.items():
+        for name in (kind_of.get(fault, fault), "together"):
+            rows[name] = [a + b for a, b in zip(rows.get(name, [0] * 4), row)]
+    rows["together"] = rows.pop("together")  # the last one
+    return [[name, *row] for name, row in rows.items()]
+
+
 def report(campaign, drawn):
-    rows = [[fault, *row] for fault, row in campaign.tally.items()]
-    rows.append(["together", *(sum(row[i] for row in campaign.tally.values()) for i in range(4))])
     names = ", ".join(f"`{command.name}`" for command in campaign.commands)
     broken = "".join(f"- {line}\n" for line in campaign.violations[:20])
     return f"""The promise: a command that writes a file ends with status 0 and a whole file, or with status 1, one sentence
@@ -486,7 +507,7 @@ gnuplot and ffmpeg that are missing, fail, die half way, or report success witho
 A sweep's database is not replaced but goes on: after a fault the same command must finish it with the same rows. A
 folder of frames holds whole frames. A directory that cannot be synced is told (status 1) over a complete new file.
 
-{section.table(["fault", "cases", "done", "refused, old file kept", "broken promises"], rows)}
+{section.table(["fault", "cases", "done", "refused, old file kept", "broken promises"], rows_of(campaign.tally))}
 
 {broken}"""
 

@@ -388,19 +388,19 @@ def make_given(folder, film):
     give_measured(folder, film)
 
 
-HEAD = ["command", "cases", "the same output", "a sentence", "a library broke down", "broken promises"]
+HEAD = ["command", "memory fails", "the same output", "a sentence", "a library broke down", "writes and reads fail",
+        "the same output", "a sentence", "broken promises"]
 
 
-def table(campaign, memory):
-    """The table of the faults of memory, or of the others: a row for each command."""
+def table(campaign):
+    """A row for each first word of the commands: cases and outcomes without memory, then those of the other faults."""
     rows = {}
-    for (command, fault), row in campaign.tally.items():
-        if (fault == "an allocation fails") == memory:
-            rows[command] = [a + b for a, b in zip(rows.get(command, [0] * 5), row)]
-    rows["together"] = [sum(column) for column in zip(*rows.values())]
-    chosen = [0, 1, 2, 3, 4, 5] if memory else [0, 1, 2, 3, 5]
-    lines = [[name, *row] for name, row in rows.items()]
-    return section.table([HEAD[i] for i in chosen], [[line[i] for i in chosen] for line in lines])
+    for (command, fault), (cases, same, sentence, library, broken) in campaign.tally.items():
+        row = [cases, same, sentence, library, 0, 0, 0] if fault == "an allocation fails" else [0, 0, 0, 0, cases, same, sentence]
+        for name in (command.split()[0], "together"):
+            rows[name] = [a + b for a, b in zip(rows.get(name, [0] * 8), [*row, broken])]
+    rows["together"] = rows.pop("together")  # the last one
+    return section.table(HEAD, [[name, *row] for name, row in rows.items()])
 
 
 def report(campaign, places):
@@ -410,19 +410,15 @@ def report(campaign, places):
 file all or nothing; also when memory runs out half way.
 
 The attack: `tests/reliability/whole.py` runs each command and format undisturbed, and then again and again while one
-allocation fails (each of them, or {places} spread over all where there are more; {max(40, places // 10)} of commands that take long); while one write of an output fails, because the disk is full or broken; and while one read fails. What
-a command writes is compared with the undisturbed output, byte by byte (of HDF5: number by number). HDF5, fontconfig, OpenBLAS and the
-run-time library of Fortran end the program or crash where they get no memory: the program then says so, with status 1, and the
-next command that writes the file removes what was left of it, as after a kill. Pixman, which paints letters, leaves
-some out and tells nobody: a frame of a film may lack them.
+allocation fails (each of them, or {places} spread over all where there are more; {max(40, places // 10)} of commands that take
+long); while one write of an output fails, because the disk is full or broken; and while one read fails. What a command writes
+is compared with the undisturbed output, byte by byte (of HDF5: number by number). HDF5, fontconfig, OpenBLAS and the
+run-time library of Fortran end the program or crash where they get no memory: the program then says so, with status 1, and
+the next command that writes the file removes what was left of it, as after a kill. Pixman, which paints letters, leaves some
+out and tells nobody, and fontconfig takes another font: a frame of a film may lack letters or have others. Their own
+allocations are not made to fail.
 
-Memory:
-
-{table(campaign, True)}
-
-Writes and reads:
-
-{table(campaign, False)}
+{table(campaign)}
 
 {broken}"""
 
