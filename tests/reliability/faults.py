@@ -490,15 +490,14 @@ def rows_of(tally):
 
 
 def report(campaign, drawn):
-    names = ", ".join(f"`{command.name}`" for command in campaign.commands)
     broken = "".join(f"- {line}\n" for line in campaign.violations[:20])
     return f"""The promise: a command that writes a file ends with status 0 and a whole file, or with status 1, one sentence
 that names what failed, and the old file as it was. It never crashes, never leaves a file of its own behind, never
 says that a disk's failure is bad input, and is not disturbed by signals and writes that take a part.
 
-The attack: `tests/reliability/faults.py` runs {names} with a preloaded library that
-makes a chosen call fail: the
-disk is full (or a quota used up) after so many bytes, at {PLACES} places over each file; the Nth write, sync, rename,
+The attack: `tests/reliability/faults.py` runs {len(campaign.commands)} commands that write files, of each
+format, with a preloaded library that makes a chosen call fail: the disk is full (or a quota
+used up) after so many bytes, at {PLACES} places over each file; the Nth write, sync, rename,
 truncation, opening, closing or reading fails; every write takes one byte; every second call is interrupted; the
 directory goes away between two writes. Besides: a limit of file sizes (`ulimit -f`), a real file system of 4 to
 512 KiB, a directory that cannot be written, two commands to one name at once, a command killed while it writes, and
