@@ -23,10 +23,10 @@ def table(head, rows):
 
 
 def wrapped(text):
-    """Prose and lists with lines of at most 115 characters; tables stay, and so do blanks within code."""
+    """Prose and lists with lines of at most 120 characters; tables stay, and so do blanks within code."""
     def paragraph(lines, indent):
         kept = re.sub(r"`[^`\n]*`", lambda code: code[0].replace(" ", "\0"), " ".join(lines.split()))
-        lines = textwrap.wrap(kept, 115, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
+        lines = textwrap.wrap(kept, 120, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
         return "\n".join(lines).replace("\0", " ")
 
     parts = []
