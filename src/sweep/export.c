@@ -380,10 +380,9 @@ fst_status fst_is_sweep(const char *path, int *is_sweep, fst_error *error)
     *is_sweep = fst_lock_check_own(path, path, NULL) != FST_OK;
     if (*is_sweep)
         return FST_OK;
-    fst_status status = fst_open_regular(path, &descriptor, error);
-    if (status != FST_OK)
-        return status;
-    status = fst_database_begins(descriptor, path, is_sweep, error);
+    if (fst_open_regular(path, &descriptor, NULL) != FST_OK)
+        return FST_OK;
+    const fst_status status = fst_database_begins(descriptor, path, is_sweep, error);
     (void)close(descriptor);
     return status;
 }
