@@ -364,7 +364,7 @@ FST_API fst_status fst_sweep_read_grid(const char *path, fst_grid **grid, fst_er
 FST_API fst_status fst_figure_sweep(const char *path, const char *const *keys, int count, fst_shown_units units,
                                     const char *out, fst_error *error);
 
-/* Whether a file begins as a sweep's database does; one that cannot be opened does not, and who reads it says why.
+/* Whether a file begins as a sweep's database does.  A file that cannot be opened does not; reading it says why.
  * FST_IO: reading it failed. */
 FST_API fst_status fst_is_sweep(const char *path, int *is_sweep, fst_error *error);
 
