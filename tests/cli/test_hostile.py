@@ -24,6 +24,8 @@ from hdf5_reader import Hdf5
 FESTOON = os.environ["FESTOON"]
 HAVE_GNUPLOT = shutil.which("gnuplot") is not None
 HAVE_FFMPEG = shutil.which("ffmpeg") is not None
+# A place takes one of so many texts, and the next place the next ones, so that every text meets many places.
+EVERY = 3 if float(os.environ.get("FESTOON_SHORTER", "1")) == 1 else 9
 SHORT = ("--set", "run.periods=4", "--set", "run.discard=1", "--set", "run.samples=8")
 
 # CANARY stands for the path of the canary.
@@ -97,14 +99,13 @@ class Hostile(unittest.TestCase):
         places = [(i, part) for i, line in enumerate(lines) for part in (0, 1) if line.partition(":")[2 * part].strip()]
         scene, count = self.path("scene.yaml"), 0
         for turn, (i, part) in enumerate(places):
-            for poison in (self.poisons[turn % len(POISONS)], self.poisons[(turn + 7) % len(POISONS)]):
-                indent, (key, colon, value) = lines[i][:len(lines[i]) - len(lines[i].lstrip())], lines[i].strip().partition(":")
-                quoted = json.dumps(poison)
-                line = indent + (f"{quoted}:{value}" if part == 0 else f"{key}: {quoted}")
-                scene.write_text("\n".join([*lines[:i], line, *lines[i + 1:]]) + "\n")
-                self.harmless("check", scene, note=(line,))
-                count += 1
-        self.assertGreater(count, 100)
+            indent, (key, colon, value) = lines[i][:len(lines[i]) - len(lines[i].lstrip())], lines[i].strip().partition(":")
+            quoted = json.dumps(self.poisons[turn % len(POISONS)])
+            line = indent + (f"{quoted}:{value}" if part == 0 else f"{key}: {quoted}")
+            scene.write_text("\n".join([*lines[:i], line, *lines[i + 1:]]) + "\n")
+            self.harmless("check", scene, note=(line,))
+            count += 1
+        self.assertGreater(count, 50)
         self.harmless("run", scene)
         self.harmless("sweep", scene, "--over", "model.kappa=1:2:2", "-o", self.path("none.db"))
         for poison in self.poisons:  # as it is, without quotation marks
@@ -162,8 +163,8 @@ class Hostile(unittest.TestCase):
         scene = self.good("init", "-").decode()
         texts = [(place, name, poison) for turn, (place, name) in enumerate([
             ("/", "program"), ("/", "version"), ("/", "units"), ("/", "result"), ("/", "scene"), ("/r", "unit"),
-            ("/n_z", "description")]) for poison in self.poisons_without_zero[turn::7]]
-        texts += [("/", "scene", scene.replace(word, json.dumps(poison))) for poison in self.poisons_without_zero[::5]
+            ("/n_z", "description")]) for poison in self.poisons_without_zero[turn::3 * EVERY]]
+        texts += [("/", "scene", scene.replace(word, json.dumps(poison))) for poison in self.poisons_without_zero[::2 * EVERY]
                   for word in ("rigid", "2.5 mm", "viscous")]
         for place, name, text in texts:
             shutil.copy(source, bad)
@@ -200,7 +201,7 @@ class Hostile(unittest.TestCase):
         self.assertIn("parameter", ways)
         ways["second_parameter"] = ("second_parameter",)
         for turn, (name, way) in enumerate(ways.items()):
-            poisons = self.poisons if "parameter" in name else self.poisons[turn % 6::6]
+            poisons = self.poisons[turn % EVERY::EVERY if "parameter" in name else 2 * EVERY]
             for poison in poisons:
                 bad.write_text(json.dumps(self.replaced(document, way, poison)))
                 statuses = (2,) if "parameter" in name else (0, 2)
@@ -209,7 +210,7 @@ class Hostile(unittest.TestCase):
         bad.write_text(source.read_text()[:-40] + "\x1b[2J")
         self.harmless("plot", bad, "-o", self.path(out + ".svg"))
         run = json.loads(self.good("run", *SHORT, "--json"))
-        for way in list(self.texts_of(run))[::3]:
+        for way in list(self.texts_of(run))[::EVERY]:
             bad.write_text(json.dumps(self.replaced(run, way, self.poisons[1])))
             self.harmless("plot", source, "--runs", bad, "-o", self.path(out + ".svg"), statuses=(0, 2), note=way)
             self.check_figure(out, self.poisons[1])
@@ -244,7 +245,7 @@ class Hostile(unittest.TestCase):
                     continue  # a number as a key, or a value that must be unique
             file.close()
             kinds = [("export", bad, "--json"), ("export", bad, "--csv"), ("plot", bad, "-o", self.path(out + ".svg"))]
-            for words in kinds if more or more is None or turn % 9 == 0 else kinds[turn % 2:turn % 2 + 1]:
+            for words in kinds if more or more is None or turn % 9 == 0 else kinds[turn % 3:turn % 3 + 1]:
                 self.harmless(*words, statuses=(0, 2), note=(change, more, poison))
             self.check_figure(out, poison)
 
@@ -252,19 +253,22 @@ class Hostile(unittest.TestCase):
 
     def test_options(self):
         self.trajectory()
-        for poison in self.poisons_without_zero:
-            for words in (("run", "--set", "bead.radius=" + poison), ("run", "--set", poison + "=1"), ("run", "--set", poison),
-                          ("run", "--" + poison), (poison,), ("run", "--ramp", poison), ("field", "--at", poison),
-                          ("sweep", "--over", poison, "-o", self.path("no.db")),
-                          ("sweep", "--over", "model.kappa=" + poison, "-o", self.path("no.db")),
-                          ("sweep", "--over", poison + "=1:2:2", "-o", self.path("no.db")),
-                          ("branch", "--kind", poison), ("branch", "--kind", "locked", "--over", poison),
-                          ("branch", "--kind", "locked", "--over", poison + "=1:2"),
-                          ("plot", self.path("track.csv"), "--colour", poison, "-o", self.path("no.svg")),
-                          ("plot", self.path("track.csv"), "--kind", poison, "-o", self.path("no.svg")),
-                          ("movie", self.path("track.csv"), "--colour", poison, "-o", self.path("no.mp4")),
-                          ("paper", "--only", poison), ("check", self.path(poison.replace("/", "") + ".yaml"))):
-                self.harmless(*words)
+        for turn, poison in enumerate(self.poisons_without_zero):
+            commands = (
+                ("run", "--set", "bead.radius=" + poison), ("run", "--set", poison + "=1"), ("run", "--set", poison),
+                ("run", "--" + poison), (poison,), ("run", "--ramp", poison), ("field", "--at", poison),
+                ("sweep", "--over", poison, "-o", self.path("no.db")),
+                ("sweep", "--over", "model.kappa=" + poison, "-o", self.path("no.db")),
+                ("sweep", "--over", poison + "=1:2:2", "-o", self.path("no.db")),
+                ("branch", "--kind", poison), ("branch", "--kind", "locked", "--over", poison),
+                ("branch", "--kind", "locked", "--over", poison + "=1:2"),
+                ("plot", self.path("track.csv"), "--colour", poison, "-o", self.path("no.svg")),
+                ("plot", self.path("track.csv"), "--kind", poison, "-o", self.path("no.svg")),
+                ("movie", self.path("track.csv"), "--colour", poison, "-o", self.path("no.mp4")),
+                ("paper", "--only", poison), ("check", self.path(poison.replace("/", "") + ".yaml")))
+            for place, words in enumerate(commands):
+                if (turn + place) % EVERY == 0:
+                    self.harmless(*words)
 
     @unittest.skipUnless(HAVE_GNUPLOT, "no gnuplot")
     def test_names(self):
