@@ -55,7 +55,8 @@ typedef struct fst_beads_table {
     fst_params scene;
     fst_bead_params *beads; /* of a scene that lists more than FST_BEADS_MOST */
     int complete;
-    int frame; /* fst_frame: of the states */
+    fst_beads_outcome outcome; /* of the run; FST_BEADS_OUTCOME_COUNT: the file does not say */
+    int frame;                 /* fst_frame: of the states */
 } fst_beads_table;
 FST_API fst_status fst_beads_trajectory_read(const char *path, fst_beads_table *table, fst_error *error);
 FST_API void fst_beads_table_free(fst_beads_table *table);

@@ -309,8 +309,10 @@ fst_status fst_chart_of_groups(const fst_beads_table *table, const fst_figure_op
     fst_status status = fst_beads_table_alone(table, 0, 0, table->rows, &whole, error);
     if (status == FST_OK)
         status = choose_rows(&s, options, error);
+    fst_figure_options shown = *options;
+    shown.from = s.x ? s.x[0] : NAN; /* not the discard */
     if (status == FST_OK)
-        status = fst_figure_part_of(&whole, options, &part, error);
+        status = fst_figure_part_of(&whole, &shown, &part, error);
     fst_table_free(&whole);
     if (status == FST_OK && !name_pairs(&s))
         status = no_memory(error);
@@ -318,10 +320,14 @@ fst_status fst_chart_of_groups(const fst_beads_table *table, const fst_figure_op
         return status;
     const fst_scales scales = fst_scales_of(&table->scene);
     s.length = fst_unit_shown("l", part.units, &scales, &unit);
+    const int told = table->outcome < FST_BEADS_OUTCOME_COUNT;
     status = put_panels(&s, part.units, unit, error);
     if (status != FST_OK)
         return status;
-    (void)snprintf(title, sizeof title, "Groups of %d beads over the turns of the magnet", table->count);
+    (void)snprintf(title, sizeof title, "Groups of %d beads%s", table->count,
+                   told ? ": " : " over the turns of the magnet");
+    if (told)
+        (void)strcat(title, fst_beads_outcome_name(table->outcome));
     (void)snprintf(about, sizeof about, "%.200s", part.about);
     tell_end(&s, about + strlen(about), sizeof about - strlen(about));
     chart->title = fst_chart_text(chart, options->title ? options->title : title);

@@ -308,7 +308,8 @@ static fst_status read_hdf5_scene(const char *path, head *h, fst_params *scene, 
     char *text = NULL;
     fst_status status = fst_load_hdf5_file(&h->module, path, &h->bytes, &h->size, error);
     if (status == FST_OK)
-        status = h->module->read(path, h->bytes, h->size, columns, 1, 1, data, &rows, &text, complete, error);
+        status =
+            h->module->read(path, h->bytes, h->size, columns, 1, 1, data, &rows, &text, NULL, complete, error);
     if (status == FST_OK)
         status = fst_scene_parse_beads(text, strlen(text), path, scene, &h->beads, error);
     free(data[0]);
@@ -420,26 +421,43 @@ static fst_status find_radii(fst_beads_table *table, fst_error *error)
     return status;
 }
 
+/* The outcome in the result of a run, as JSON; NULL: the file has none. */
+static fst_beads_outcome outcome_in(const char *result)
+{
+    json_error_t why;
+    fst_status status = FST_OK;
+    json_t *document = result ? fst_json_read(result, strlen(result), &why, &status) : NULL;
+    const char *name = json_string_value(json_object_get(document, "outcome"));
+    int outcome = 0;
+    while (outcome < FST_BEADS_OUTCOME_COUNT &&
+           !(name && strcmp(name, fst_beads_outcome_name((fst_beads_outcome)outcome)) == 0))
+        ++outcome;
+    json_decref(document);
+    return (fst_beads_outcome)outcome;
+}
+
 static fst_status read_columns(const char *path, head *h, fst_beads_table *table, fst_error *error)
 {
     column_list list;
-    char *scene = NULL;
+    char *scene = NULL, *result = NULL;
     const int listed = list_columns(table->count, &list);
     double **data = calloc((size_t)list.count, sizeof *data);
     fst_status status = listed && data ? FST_OK : no_memory(path, error);
     if (status == FST_OK && h->is_hdf5)
         status = h->module->read(path, h->bytes, h->size, list.at, list.count, list.count, data, &table->rows,
-                                 &scene, &table->complete, error);
+                                 &scene, &result, &table->complete, error);
     else if (status == FST_OK)
         status =
             fst_csv_rows(&h->text, h->ended, list.at, list.count, list.count, 1, data, &table->rows, error);
     if (status == FST_OK)
         status = fill_table(path, &list, data, table, error);
+    table->outcome = outcome_in(h->is_hdf5 ? result : fst_csv_result(&h->text));
     for (int i = 0; data && i < list.count; ++i)
         free(data[i]);
     table->columns = list.count;
     free(data);
     free(scene);
+    free(result);
     free_columns(&list);
     return status;
 }

@@ -14,6 +14,7 @@
 #define OTHER_UNITS_LINE "# festoon trajectory for other programs, in the units of its columns"
 #define SCENE_LINE "# scene:"
 #define SCENE_INDENT "#   "
+#define RESULT_LINE "# result = "
 #define COMPLETE_LINE "# complete = "
 
 /* ---------------------------------------------------------------- writing */
@@ -49,7 +50,7 @@ void fst_csv_row(FILE *out, const double *values, int count)
 void fst_csv_end(FILE *out, const char *result, int complete)
 {
     if (result)
-        (void)fprintf(out, "# result = %s\n", result);
+        (void)fprintf(out, RESULT_LINE "%s\n", result);
     (void)fprintf(out, "%s%s\n", COMPLETE_LINE, complete ? "true" : "false");
 }
 
@@ -145,6 +146,15 @@ fst_status fst_csv_comments(const fst_text *text, int of_beads, fst_params *para
         return fst_text_fail(text->path, text->count, error,
                              "the scene is missing in the head of this trajectory");
     return read_scene(text, scene, params, beads, error);
+}
+
+const char *fst_csv_result(const fst_text *text)
+{
+    const size_t length = strlen(RESULT_LINE);
+    for (size_t i = text->count; i-- > 0;)
+        if (strncmp(text->lines[i], RESULT_LINE, length) == 0)
+            return text->lines[i] + length;
+    return NULL;
 }
 
 /* Find the columns; a file may lack all of those that need not be there. */

@@ -30,6 +30,9 @@ int fst_csv_of_beads(const fst_text *text);
 fst_status fst_csv_comments(const fst_text *text, int of_beads, fst_params *params, fst_bead_params **beads,
                             size_t *ended, int *complete, fst_error *error);
 
+/* The result, as JSON; NULL: there is none. */
+const char *fst_csv_result(const fst_text *text);
+
 /* Read the rows: data[i] of each column.  Where none of those from `needed` on is there, their numbers are zeros; with
  * `gaps` a cell may say that there is no number (NAN).  The caller frees data[i], also on failure. */
 fst_status fst_csv_rows(const fst_text *text, size_t ended, const fst_column_info *const *columns, int needed,

@@ -320,7 +320,8 @@ static fst_status read_column(hid_t file, const char *path, const char *name, in
     return status;
 }
 
-static fst_status read_root(hid_t file, const char *path, char **scene, int *complete, fst_error *error)
+static fst_status read_root(hid_t file, const char *path, char **scene, char **result, int *complete,
+                            fst_error *error)
 {
     char *program = read_text(file, "program");
     int ours = program && strcmp(program, PROGRAM) == 0;
@@ -333,6 +334,8 @@ static fst_status read_root(hid_t file, const char *path, char **scene, int *com
         return fst_fail(error, FST_BAD_INPUT, path, "the attribute %s is missing: the file is damaged",
                         *scene ? "complete" : "scene");
     *complete = said;
+    if (result && !*result)
+        *result = read_text(file, "result");
     return FST_OK;
 }
 
@@ -349,7 +352,7 @@ static fst_status fill_columns(const char *path, int needed, int count, double *
 }
 
 static fst_status read_file(hid_t file, const char *path, const fst_column_info *const *columns, int needed,
-                            int count, double **data, size_t *rows, char **scene, int *complete,
+                            int count, double **data, size_t *rows, char **scene, char **result, int *complete,
                             fst_error *error)
 {
     fst_status status = FST_OK;
@@ -357,7 +360,7 @@ static fst_status read_file(hid_t file, const char *path, const fst_column_info 
     if (file < 0)
         status = fst_fail(error, FST_BAD_INPUT, path, "HDF5 cannot open this file: it is damaged or cut off");
     else
-        status = read_root(file, path, scene, complete, error);
+        status = read_root(file, path, scene, result, complete, error);
     for (int i = needed; i < count && status == FST_OK; ++i)
         later += H5Lexists(file, columns[i]->name, H5P_DEFAULT) > 0;
     const int there = later ? count : needed;
@@ -368,7 +371,7 @@ static fst_status read_file(hid_t file, const char *path, const fst_column_info 
 
 static fst_status read_all(const char *path, const char *bytes, size_t size,
                            const fst_column_info *const *columns, int needed, int count, double **data,
-                           size_t *rows, char **scene, int *complete, fst_error *error)
+                           size_t *rows, char **scene, char **result, int *complete, fst_error *error)
 {
     fst_status status = FST_BAD_INPUT;
     /* Where memory runs out HDF5 answers as to a damaged file: it must do so twice. */
@@ -381,7 +384,8 @@ static fst_status read_all(const char *path, const char *bytes, size_t size,
         free(*scene);
         *scene = NULL;
         fst_hdf5_session_begin(bytes, size, &session);
-        status = read_file(session.file, path, columns, needed, count, data, rows, scene, complete, error);
+        status =
+            read_file(session.file, path, columns, needed, count, data, rows, scene, result, complete, error);
         fst_hdf5_session_end(&session);
     }
     return status;

@@ -39,10 +39,11 @@ typedef struct fst_hdf5_module_table {
     void (*abandon)(fst_hdf5_writer *writer);
 
     /* Read all columns of the file with these bytes.  Where none of those from `needed` on is there, their data
-     * are zeros.  The caller frees data[i] and `scene`, also on failure where they are not NULL. */
+     * are zeros.  `result` is that of finish(), NULL: not wanted.  The caller frees data[i],
+     * `scene` and `result`, also on failure where they are not NULL. */
     fst_status (*read)(const char *path, const char *bytes, size_t size, const fst_column_info *const *columns,
-                       int needed, int count, double **data, size_t *rows, char **scene, int *complete,
-                       fst_error *error);
+                       int needed, int count, double **data, size_t *rows, char **scene, char **result,
+                       int *complete, fst_error *error);
 
     /* Read a map of a field.  The caller frees its places and b, also on failure. */
     fst_status (*read_map)(const char *path, const char *bytes, size_t size, fst_hdf5_map *map,

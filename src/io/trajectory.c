@@ -177,7 +177,7 @@ static fst_status read_hdf5(const char *path, fst_table *table, fst_error *error
         return status;
     list_columns(columns);
     status = module->read(path, bytes, size, columns, FST_COLUMNS_BEFORE_FLIGHTS, FST_COLUMN_COUNT,
-                          table->columns, &table->rows, &scene, &table->complete, error);
+                          table->columns, &table->rows, &scene, NULL, &table->complete, error);
     if (status == FST_OK)
         status = fst_scene_parse(scene, strlen(scene), path, &table->params, error);
     else if (scene && fst_scene_parse(scene, strlen(scene), path, &table->params, NULL) == FST_OK &&

@@ -4,6 +4,7 @@ trajectory, options that say nothing of several beads are refused, and damaged f
 tests: draw/figure_beads.c draw/figure_groups.c io/bead_table.c cli/plot.c"""
 
 import csv
+import json
 import math
 import os
 import shutil
@@ -124,9 +125,16 @@ class Beads(unittest.TestCase):
     def gap(self, row, a, b):
         return math.dist(*[[row[f"{axis}_{i}"] for axis in "XYZ"] for i in (a, b)]) - self.radii[a] - self.radii[b]
 
+    def test_groups_before_the_discard(self):
+        _, curves = self.plot("--kind", "groups", "--to", 0.5)
+        self.assertEqual(curves["beads 0 and 1"][0][1][0][-1][0], 0.5)
+
     def test_groups(self):
         """Gaps are those of the states, bars those of the forces, loads in the weights of their own beads."""
         script, curves = self.plot("--kind", "groups", "--units", "lab")
+        told = next(line for line in (self.folder / "t.csv").read_text("utf-8").splitlines() if "# result = " in line)
+        outcome = json.loads(told[len("# result = "):])["outcome"]
+        self.assertIn(f"Groups of 3 beads: {outcome}", script)
         self.assertIn("set label 'gap (mm)'", script)
         pairs = ((0, 1), (0, 2), (1, 2))
         for a, b in pairs:
