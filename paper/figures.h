@@ -52,6 +52,8 @@ FST_PAPER_DRAW(camera)
 /* ... and the chapter on real magnets (magnets_charts.c). */
 FST_PAPER_DRAW(magnet_fields)
 FST_PAPER_DRAW(magnet_speeds)
+/* ... and of several beads (beads.c). */
+FST_PAPER_DRAW(opposition)
 #undef FST_PAPER_DRAW
 
 /* The supplement's two films, beside the figures (films.c); paper->films counts the films that are made, in

@@ -1,4 +1,5 @@
 /* json.c - paper.json: the comparison for programs. */
+#include "paper/beads.h"
 #include "paper/dry.h"
 #include "paper/figures.h"
 #include "paper/magnets.h"
@@ -404,6 +405,29 @@ static json_t *magnets_object(const fst_paper_state *paper)
     return object;
 }
 
+static json_t *beads_array(const fst_paper_state *paper)
+{
+    if (!paper->beads)
+        return NULL;
+    json_t *array = json_array();
+    for (int i = 0; i < FST_BEADS_CASES; ++i) {
+        const fst_beads_case *of = &fst_beads_cases[i];
+        const fst_beads_answer *answer = &paper->beads->answers[i];
+        const int ran = of->question == FST_ASK_BORDER || of->question == FST_ASK_WALKER;
+        if (!answer->done)
+            continue;
+        json_t *one = json_object();
+        put_text(one, "question", fst_beads_question_names[of->question]);
+        put_number(one, "frequency_hz", of->hertz);
+        put_number(one, "given", of->given);
+        put_text(one, "outcome", ran ? fst_beads_outcome_name(answer->outcome) : NULL);
+        put_number(one, "value", answer->value);
+        put_number(one, "r", answer->r);
+        json_array_append_new(array, one);
+    }
+    return array;
+}
+
 /* ------------------------------------------------------------------ the document */
 
 static json_t *provenance_object(const fst_paper_state *paper)
@@ -444,6 +468,7 @@ fst_status fst_paper_write_json(const fst_paper_state *paper, fst_error *error)
     put(document, statements_array(paper), "statements");
     put(document, dry_object(paper), "dry");
     put(document, magnets_object(paper), "magnets");
+    put(document, beads_array(paper), "beads");
     put(document, figures_array(paper), "figures");
     put(document, films, "films");
     put(document, provenance_object(paper), "provenance");

@@ -5,13 +5,15 @@
  *  3. thresholds   runs.c         by bisection, where the orbits do not tell      +--> fst_paper_state
  *  4. probes       probe_parts.c  period halving, ansatz, paramagnetic beads    --+        (state.h)
  *     dry friction dry.c          the scans once more, and a small map                |
- *     magnets      magnets.c      the experiment on real magnets                    --'
+ *     magnets      magnets.c      the experiment on real magnets                      |
+ *     beads        beads.c        several beads                                     --'
  *  5. statements   verdicts.c     each number against the paper's                          |
  *  6. figures      figures.c      drawn as soon as their step is done                      v
  *  7. report       json.c, report.c                                        paper.json, report.html
  *
  * After an interruption or a failure, what was done so far is written all the same, marked as incomplete.
  */
+#include "paper/beads.h"
 #include "paper/dry.h"
 #include "paper/figures.h"
 #include "paper/magnets.h"
@@ -71,7 +73,9 @@ static fst_status make_everything(fst_paper_state *paper, fst_error *error)
     if (status == FST_OK)
         status = fst_paper_make_magnets(paper, error);
     if (status == FST_OK)
-        status = fst_paper_draw_figures(paper, 0.99, 1.0, error);
+        status = fst_paper_make_beads(paper, error);
+    if (status == FST_OK)
+        status = fst_paper_draw_figures(paper, 0.995, 1.0, error);
     paper->complete = status == FST_OK;
     return status;
 }
@@ -162,6 +166,7 @@ fst_status fst_paper(const char *directory, const fst_paper_options *options, fs
         status = fst_paper_magnets_begin(&paper, error);
     if (status == FST_OK)
         status = options->only ? answer_one(&paper, error) : answer_all(&paper, began, error);
+    free(paper.beads);
     fst_paper_magnets_free(&paper);
     fst_paper_dry_free(&paper);
     fst_paper_free_runs(&paper);

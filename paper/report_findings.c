@@ -1,6 +1,7 @@
 /* report_findings.c - the first chapter of the report: what was found (findings.def).  Every number in it is
  * one that this run computed; what it has not computed is left out. */
 #include "base/constants.h"
+#include "paper/beads.h"
 #include "paper/dry.h"
 #include "paper/runs.h"
 #include "paper/report_parts.h"
@@ -19,6 +20,8 @@ static int is_known(const fst_paper_state *paper, const char *id)
 {
     if (strcmp(id, "dry") == 0)
         return paper->dry && paper->done[FST_PAPER_STEP_DRY];
+    if (strcmp(id, "beads") == 0)
+        return paper->beads && paper->done[FST_PAPER_STEP_BEADS];
     return fst_statement_known(fst_statement_named(id), paper);
 }
 
@@ -26,6 +29,11 @@ static int is_known(const fst_paper_state *paper, const char *id)
 static double value_of(const fst_paper_state *paper, const char *column, const char *id)
 {
     const fst_dynamics dynamics = strcmp(column, "printed") == 0 ? FST_DYNAMICS_FARAGO2020 : FST_DYNAMICS_RIGID;
+    if (strncmp(id, "change", 6) == 0) {
+        double drives[FST_BEADS_CASES];
+        const int change = id[6] - '1';
+        return change < fst_beads_changes(paper->beads, drives) ? drives[change] : NAN;
+    }
     if (strcmp(id, "mu") == 0)
         return FST_DRY_MU;
     if (strcmp(id, "fold") == 0)
@@ -60,8 +68,11 @@ static void write_links(FILE *out, const char *ids)
     fputs(" <span class=\"from\">", out);
     for (const char *id = ids; *id; id += strspn(id, " ")) {
         const int length = (int)strcspn(id, " ");
-        fprintf(out, "%s<a href=\"#%.*s\">%.*s</a>", id > ids ? ", " : "", length, id,
-                strcmp(id, "dry") == 0 ? 64 : length, strcmp(id, "dry") == 0 ? "what dry friction says" : id);
+        const char *chapter = strcmp(id, "dry") == 0     ? "what dry friction says"
+                              : strcmp(id, "beads") == 0 ? "several beads"
+                                                         : NULL;
+        fprintf(out, "%s<a href=\"#%.*s\">%.*s</a>", id > ids ? ", " : "", length, id, chapter ? 64 : length,
+                chapter ? chapter : id);
         id += length;
     }
     fputs("</span></li>\n", out);

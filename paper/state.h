@@ -4,7 +4,8 @@
  *     exact.c --------+--> fst_paper_state --> measures --> statements --> verdicts --> report
  *     probe_parts.c --+                    `-> figures, films -----------------------'
  *     dry.c ----------+
- *     magnets.c ------'
+ *     magnets.c ------+
+ *     beads.c --------'
  *
  * The files on the left fill the state in; everything on the right only reads it.  The paper's bead is a solid
  * sphere, so formulas in this directory have its 2/5 (0.4, 0.2, 2.5) written out: bead.inertia plays no part.
@@ -34,6 +35,7 @@ typedef enum {
     FST_PAPER_STEP_REMANENCE,
     FST_PAPER_STEP_DRY,
     FST_PAPER_STEP_MAGNETS,
+    FST_PAPER_STEP_BEADS,
     FST_PAPER_STEP_COUNT
 } fst_paper_step;
 
@@ -157,6 +159,7 @@ typedef struct fst_paper_state {
     double mu;                 /* the coefficient of dry friction of all scans; 0: the paper's viscous law */
     struct fst_paper_dry *dry; /* what is computed of a bead that rubs dry (dry.h); NULL within that itself */
     struct fst_paper_magnets *magnets;                            /* the runs on real magnets (magnets.h) */
+    struct fst_paper_beads *beads;                                /* several beads (beads.h); NULL: not yet */
     fst_balances balances[FST_PAPER_DYNAMICS][FST_BALANCE_CASES]; /* for the identities */
     fst_balances settled[FST_PAPER_DYNAMICS][FST_BALANCE_CASES];  /* over longer windows, for the means */
     fst_least_found remanence[FST_PAPER_DYNAMICS][FST_REMANENCE_DRIVES][FST_REMANENCE_STRENGTHS];

@@ -4,7 +4,7 @@ tests: paper/main.c paper/paper.c paper/runs.c paper/probes.c paper/probe_parts.
   paper/figures.c paper/films.c paper/exact.c paper/json.c paper/summary.c paper/table.c paper/work.c
   paper/report.c paper/report_figures.c paper/report_findings.c paper/report_statements.c paper/measures_theory.c
   paper/measures_equations.c paper/dry.c paper/dry_maps.c paper/dry_report.c paper/magnets.c
-  paper/magnets_charts.c paper/magnets_facts.c paper/magnets_report.c cli/paper.c
+  paper/magnets_charts.c paper/magnets_facts.c paper/magnets_report.c paper/beads.c paper/beads_report.c cli/paper.c
 labels: long slow"""
 
 import html
@@ -552,6 +552,17 @@ class Paper(ByHand, unittest.TestCase):
         value = {(f["id"], v["magnet"], v["law"]): v["value"] for f in magnets["facts"] for v in f["values"]}
         gone = 100 * sum(r["outcome"] in ("ejected", "lifted") for r in window) / len(window)
         self.close_to(value["ejection", "bar", "dry"], gone, 1e-12, window)
+
+    def test_several_beads(self):
+        """The multiplier and the walker of another program (tests/beads), and the chapter's commands again."""
+        opposite, walker = self.paper["beads"]
+        self.assertLess(abs(opposite["value"] - 0.9991387), 1e-7)
+        self.assertEqual((walker["question"], walker["outcome"]), ("walker", "walker"))
+        self.assertLess(abs(walker["value"] / -0.1211756 - 1), 2e-3)  # not yet settled
+        chapter = html.unescape(self.report[self.report.index('id="beads"'):])
+        self.assertIn("D = 111.86 degrees", chapter)
+        command = re.search("festoon orbit [^<]*", chapter).group(0)
+        self.assertEqual(repeat(command.replace("'", "") + " --json")["multipliers"][0][0], -opposite["value"])
 
     # ------------------------------------------------------------ without LAPACK, and on a phone
     def test_without_lapack(self):
