@@ -52,8 +52,9 @@ def _into_file(
     lanes: int,
     portable: bool,
     refining: Tuple[int, Optional[str], float],
+    levitation: bool,
     progress: Progress,
-) -> Sweep:
+) -> Any:
     options = options_of(lib.fst_default_sweep_options())
     words, _kept = strings(axes)
     options.axes, options.axis_count, options.seed = words, len(axes), seed
@@ -63,6 +64,7 @@ def _into_file(
     levels, by, step = refining
     key = ffi.new("char[]", by.encode()) if by else ffi.NULL
     options.refine, options.refine_by, options.refine_step = levels, key, step
+    options.levitation = levitation
     if portable:
         options.arithmetic = lib.FST_ARITHMETIC_PORTABLE
     counts = ffi.new("fst_sweep_counts *")
@@ -71,7 +73,7 @@ def _into_file(
         watch.call(lib.fst_sweep, bead._params, path_bytes(path), options, counts)
     if 0 < counts.undefined == counts.computed:
         warnings.warn(f"{by or 'regime'} has no value in any run, so nothing was refined", stacklevel=3)
-    return read_sweep(path)  # type: ignore[no-any-return]
+    return read_sweep(path)
 
 
 def _refining(levels: int, by: Optional[str], step: float) -> Tuple[int, Optional[str], float]:
@@ -99,10 +101,12 @@ def sweep(
     refine: int = 0,
     refine_by: Optional[str] = None,
     refine_step: float = 0.0,
+    levitation: bool = False,
     progress: Progress = None,
     **axes: Any,
 ) -> Sweep:
-    """Run a bead over a grid of parameters: a :class:`Sweep`, on all processors that this process may use.
+    """Run a bead over a grid of parameters: a :class:`Sweep`, on all processors that this process may use; of several
+    beads, or of one in a world, a :class:`SweepTable`.
 
     Parameters
     ----------
@@ -129,12 +133,14 @@ def sweep(
     refine_by, refine_step
         Refine where this key differs instead: "symmetry", or a number by more than the step (in scaled units),
         which may also stand behind the key: "mean_r:0.05".
+    levitation
+        Find the places where a bead without a plate floats, and run nothing.
     progress
         True: a bar; or a function of (fraction, what).
 
     Returns
     -------
-    Sweep
+    Sweep or SweepTable
         Its numbers are arrays of the grid's shape, scaled.
 
     Raises
@@ -158,8 +164,6 @@ def sweep(
     ((2,), ['counter-rotating', 'counter-rotating'])
     """
     bead = (bead or Bead())._asked()
-    if bead._params.bead_count:
-        raise BadInput("sweep", "it is for one bead: festoon sweep SCENE sweeps several, and festoon.export() writes its rows")
     texts = [axis_text(keyword, values) for keyword, values in axes.items()]
     if threads is not None and threads < 0:
         raise BadInput("threads", f"{threads} is no number of threads: 1 or more, or 0 for all processors")
@@ -167,11 +171,16 @@ def sweep(
     grid = grid_of(bead, texts, seed)
     refining = _refining(refine, refine_by, refine_step)
     if file is not None:
-        return _into_file(bead, texts, file, seed, carry, count, lanes, portable, refining, progress)
-    if carry is not None or refining != (0, None, 0.0):
+        return _into_file(  # type: ignore[no-any-return]
+            bead, texts, file, seed, carry, count, lanes, portable, refining, levitation, progress
+        )
+    in_three_dimensions = levitation or lib.fst_grid_row_kind(grid) != lib.FST_ROWS_OF_RUNS
+    if in_three_dimensions or carry is not None or refining != (0, None, 0.0):
         with tempfile.TemporaryDirectory(prefix="festoon-") as folder:
             path = os.path.join(folder, "sweep.db")
-            return _into_file(bead, texts, path, seed, carry, count, lanes, portable, refining, progress)
+            return _into_file(  # type: ignore[no-any-return]
+                bead, texts, path, seed, carry, count, lanes, portable, refining, levitation, progress
+            )
     made = _in_memory(grid, bead._map, count, lanes, portable, progress)
     made._seed = seed
     return made

@@ -70,6 +70,11 @@ def test_files(pair, run, tmp_path, ending):
     assert np.array_equal(again.loads, run.trajectory.loads, equal_nan=True) and again.setup == pair
 
 
+def columns_of(sweep):
+    """What a sweep says of its rows, as texts, for NaN is not NaN; but for how long they took."""
+    return str({name: column for name, column in sweep.to_dict().items() if not name.endswith("seconds")})
+
+
 def test_a_sweep_of_the_program_is_exported(program, pair, tmp_path):
     pair.save(tmp_path / "pair.yaml")
     subprocess.run([program, "sweep", "pair.yaml", "--over", "drive.frequency=29:30:2", "-o", "s.db"], cwd=tmp_path, check=True,
@@ -78,6 +83,8 @@ def test_a_sweep_of_the_program_is_exported(program, pair, tmp_path):
     assert read.shape == (2,) and read.outcome[0] in ("apart", "undecided")
     with pytest.raises(fs.BadInput, match="outcome"):
         read["outcom"]
+    again = fs.sweep(pair, frequency=[29, 30])
+    assert again.dims == ("frequency",) and columns_of(again) == columns_of(read)
     fs.export(tmp_path / "s.db", tmp_path / "s.csv", keys=["outcome"])
     assert len((tmp_path / "s.csv").read_text().splitlines()) >= 3
 
@@ -107,6 +114,16 @@ def test_files_of_a_world(program, world, tmp_path):
     assert sweep.shape == (2,) and sweep.dims == ("bead__inertia",) and sweep.regime[0] == told["regime"]
     assert sweep.final_state.shape == (2, 12) and np.array_equal(sweep.final_state[0], told["final_state"])
     assert sweep["mean_r"][0] == told["mean_r"] and "frame" in sweep.columns and "2 points" in repr(sweep)
+    again = fs.sweep(bead, bead__inertia=[0.4, 0.5])
+    assert again.frame[0] == run.frame and columns_of(again) == columns_of(sweep)
+
+
+def test_a_map_of_levitation(program, tmp_path):
+    subprocess.run([program, "init", "world.yaml", "--world", "levitation"], cwd=tmp_path, check=True, capture_output=True)
+    subprocess.run([program, "sweep", "world.yaml", "--levitation", "--over", "drive.frequency=190:200:2", "-o", "s.db"],
+                   cwd=tmp_path, check=True, capture_output=True)
+    made = fs.sweep(fs.Bead(tmp_path / "world.yaml"), frequency=[190, 200], levitation=True)
+    assert made.below[1] == "stable" and columns_of(made) == columns_of(fs.read(tmp_path / "s.db"))
 
 
 def test_vectors_of_a_start():
@@ -148,8 +165,10 @@ def test_what_is_wrong_is_said(pair):
         fs.Bead(pair.scene() + "\n")
     with pytest.raises(fs.BadInput, match="for one bead"):
         pair.lyapunov()
-    with pytest.raises(fs.BadInput, match="for one bead: festoon sweep"):
-        fs.sweep(pair, frequency=[29, 30])
+    with pytest.raises(fs.BadInput, match="each from its own start"):
+        fs.sweep(pair, frequency="29:30:3", refine=1)
+    with pytest.raises(fs.BadInput, match="plate.shape"):
+        fs.sweep(fs.Bead(), frequency=[29, 30], levitation=True)
     with pytest.raises(fs.BadInput, match="shape"):
         pair.run(start=np.zeros((3, 12)))
     with pytest.raises(fs.BadInput):
