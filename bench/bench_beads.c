@@ -136,7 +136,7 @@ int main(void)
         char name[64];
         (void)snprintf(name, sizeof name, "%d beads, exact, a bar", count);
         place_bar(count, omega, state);
-        failed |= measure(name, count, state, options, 200);
+        failed |= measure(name, count, state, options, 1000);
     }
     options.method = FST_BEADS_STEPPING;
     place_bar(3, omega, state);

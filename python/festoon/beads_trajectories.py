@@ -7,6 +7,7 @@ import numpy as np
 
 from ._native import Watch, ffi, freed_array, lent, lib, owned_array, path_bytes, take_text, text_of
 from ._pickled import Told
+from ._progress import Progress
 from ._quantities import Scales, units_of
 from .bead import Bead, Path
 from .beads import Beads
@@ -127,6 +128,59 @@ class BeadsTrajectory(Told):
         _style.dress(ax, f"Trails of {places.shape[1]} beads", "", f"x ({unit})", f"y ({unit})")
         _style.key_below(ax)
         return ax
+
+    def movie(self, path: Path, *, progress: Progress = None, **options: Any) -> None:
+        """A film of the beads with their poles and contacts, .mp4, .gif or a folder of PNG frames.
+
+        Options: width, height, fps, begin, end (drive periods), seconds_per_turn, units.
+
+        Parameters
+        ----------
+        path
+            The film.
+        progress
+            True: a bar; or a function of (fraction, what).
+        **options
+            Those above.
+
+        Raises
+        ------
+        BadInput
+            Where an argument is wrong; the sentence says what was expected.
+        Unavailable
+            Where ffmpeg or cairo is missing.
+        Interrupted
+            After Ctrl-C.
+        """
+        from . import films
+
+        films.movie(self, path, progress, **options)
+
+    def _table(self) -> Any:
+        """The samples as the library has them, and what must stay alive with them.  Pairs touch without a gap."""
+        rows, beads = self.states.shape[:2]
+        alone = [self.setup.alone(i) if isinstance(self.setup, Beads) else self.setup for i in range(beads)]
+        radii = np.array([bead.groups.eps for bead in alone])
+        touching = [(self.loads[:, i] == self.loads[:, i], i, -1) for i in range(beads)]
+        for i in range(beads):
+            for j in range(i + 1, beads):
+                apart = np.linalg.norm(self.states[:, i, :3] - self.states[:, j, :3], axis=-1)
+                touching.append((apart < radii[i] + radii[j] + 1e-9, i, j))
+        shown = np.array([row for row, *_ in touching]).T
+        of_row, of_pair = np.nonzero(shown)
+        touches = np.zeros(len(of_row) + 1, [("beads", "i4", 2), ("force", "f8")])
+        touches["beads"][:-1] = np.array([pair for _, *pair in touching])[of_pair]
+        first = np.concatenate([[0], np.cumsum(shown.sum(axis=1))]).astype(np.uintp)
+        arrays = {"t": self.t, "drive_turns": self.drive_turns, "states": self.states, "radii": radii}
+        kept = [np.array(array, "f8") for array in arrays.values()]
+        table = ffi.new("fst_beads_table *", {"rows": rows, "count": beads, "scene": self.setup._params[0]})
+        for name, array in zip(arrays, kept):
+            setattr(table, name, ffi.cast("double *", array.ctypes.data))
+        table.first = ffi.cast("size_t *", first.ctypes.data)
+        table.touches = ffi.cast("fst_bead_touch *", touches.ctypes.data)
+        table.complete, table.outcome = 1, lib.FST_BEADS_OUTCOME_COUNT
+        table.frame = lib.FST_FRAME_LABORATORY if self.frame == "laboratory" else lib.FST_FRAME_TURNING
+        return table, [kept, first, touches]
 
     def __reduce__(self) -> Any:
         arrays = (np.array(a) for a in (self.t, self.drive_turns, self.states, self.loads))

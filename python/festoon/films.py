@@ -11,13 +11,14 @@ Path = Union[str, "os.PathLike[str]"]
 
 
 def movie(samples: Any, path: Path, progress: Progress, **given: Any) -> None:
-    """See Trajectory.movie()."""
+    """See Trajectory.movie() and BeadsTrajectory.movie()."""
     options = options_of(lib.fst_default_film_options())
     kept = set_options(options, given, "movie")
     table, arrays = samples._table()
     with Watch(progress, title="film") as watch:
         options.progress = watch.told
-        watch.call(lib.fst_film, table, path_bytes(path), options)
+        of_beads = ffi.typeof(table) is ffi.typeof("fst_beads_table *")
+        watch.call(lib.fst_film_beads if of_beads else lib.fst_film, table, path_bytes(path), options)
     del arrays, kept
 
 

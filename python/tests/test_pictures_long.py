@@ -69,6 +69,20 @@ def test_movie(tmp_path):
         fs.Bead().movie(tmp_path / "odd.mp4", periods=1, width=201)
 
 
+def test_movie_of_two_beads(program, tmp_path):
+    """Frame by frame the film that the program makes of the file."""
+    needs("cairo")
+    pair = fs.Beads(beads=[{"start__phi": 3}, {"start__phi": 53}], frequency="30 Hz", run__periods=2, run__discard=1, run__samples=64)
+    pair.save(tmp_path / "pair.yaml")
+    subprocess.run([program, "run", tmp_path / "pair.yaml", "-o", tmp_path / "t.h5"], check=True, capture_output=True)
+    words = ["--size", "200x200", "--fps", "10"]
+    subprocess.run([program, "movie", tmp_path / "t.h5", "-o", tmp_path / "theirs", *words], check=True, capture_output=True)
+    pair.run(trajectory=True).trajectory.movie(tmp_path / "ours", width=200, height=200, fps=10)
+    ours, theirs = (sorted((tmp_path / name).glob("*.png")) for name in ("ours", "theirs"))
+    assert len(ours) == len(theirs) > 5
+    assert [frame.read_bytes() for frame in ours] == [frame.read_bytes() for frame in theirs]
+
+
 def test_film_and_track(samples, tmp_path):
     """A camera's film of a run, tracked, gives the run's places."""
     needs("cairo")
