@@ -75,8 +75,9 @@ typedef struct fst_bead_touch {
  * alone), or impacts follow each other without end.  It lists the contacts that touched then. */
 typedef struct fst_beads_paradox {
     double time; /* 1/gamma; NAN: there was none */
-    int motions; /* 0: no state of these contacts is consistent; 2: two are, with different accelerations; 1: more than 1000
-                    impacts and releases follow each other within a thousandth of 1/gamma */
+    int motions; /* 0: no state of these contacts is consistent, or of more than ten none was found; 2: two are, with
+                    different accelerations; 1: more than 1000 impacts and releases follow each other within a
+                    thousandth of 1/gamma */
     int touch_count, touches[FST_BEAD_TOUCHES][2]; /* as in fst_bead_touch */
 } fst_beads_paradox;
 

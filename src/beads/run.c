@@ -19,6 +19,7 @@
 #include "base/watch.h"
 #include "beads/flow.h"
 #include "beads/seen.h"
+#include "beads/select.h"
 #include "beads/setup.h"
 #include "beads/steps.h"
 
@@ -262,6 +263,7 @@ static fst_status tell_paradox(run *r, fst_beads_result *result, fst_error *erro
                                         "there are several motions"};
     const int is_dry = beads_is_dry(&r->world);
     const fst_beads_paradox *paradox = &r->flow.paradox;
+    const int is_sure = paradox->motions != 0 || paradox->touch_count <= BEADS_MOST_TRIED;
     const beads_seen seen = see(r);
     const fst_status status = beads_find_bonds(&r->world, seen.gone, seen.y, &r->bonds, &r->bond_count, error);
     if (status != FST_OK)
@@ -272,8 +274,9 @@ static fst_status tell_paradox(run *r, fst_beads_result *result, fst_error *erro
     result->outcome = FST_BEADS_UNDECIDED;
     (void)snprintf(result->reason, sizeof result->reason,
                    "%s at t = %.6g %s of %d contacts%s; run.method: stepping goes on",
-                   paradox->motions == 1 ? "crowded:" : "paradox:", paradox->time, found[paradox->motions],
-                   paradox->touch_count, is_dry ? " with dry friction" : "");
+                   paradox->motions == 1 || !is_sure ? "crowded:" : "paradox:", paradox->time,
+                   is_sure ? found[paradox->motions] : "no consistent state was found", paradox->touch_count,
+                   is_dry ? " with dry friction" : "");
     return FST_OK;
 }
 

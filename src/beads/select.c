@@ -27,7 +27,7 @@
 
 #include "beads/hold.h"
 
-enum { MOST_FLIPS = 60, MOST_TRIED = 10, SETTINGS = 3, MOST_COMPARED = 4 };
+enum { MOST_FLIPS = 60, SETTINGS = 3, MOST_COMPARED = 4 };
 enum { THE_WORST, THE_LAST };
 static const double SLACK = 1e-10, ANOTHER = 1e-6;
 static const double ALIGNED =
@@ -177,7 +177,7 @@ static int try_all(const beads_world *world, const double *y, const int *touchin
                    int grazing, beads_modes *modes)
 {
     int list[BEADS_CONTACTS], count;
-    const long settings = list_touching(world, touching, MOST_TRIED, list, &count);
+    const long settings = list_touching(world, touching, BEADS_MOST_TRIED, list, &count);
     for (long setting = 0; setting < settings; ++setting)
         if (set_all(world, home, list, count, setting, modes) == grazing &&
             beads_is_consistent(world, y, touching, modes))

@@ -4,6 +4,9 @@
 
 #include "beads/look.h"
 
+/* Of so many contacts all states are tried before it is said that none is consistent; of more only likely ones. */
+enum { BEADS_MOST_TRIED = 10 };
+
 /* Choose for each of the contacts `touching` (a flag each; closed or not, their gaps are 0 and stay so unless
  * they open), beginning with the modes as they are.  0: no choice is consistent, and the modes are as before. */
 int beads_select(const beads_world *world, const double *y, const int *touching, beads_modes *modes);
