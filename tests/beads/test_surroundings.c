@@ -330,6 +330,75 @@ static void test_step_out(void **unused)
     assert_true(mean_rate(0.1, 1.45, -3, 400) < 1.0);
     CHECK_CLOSE(mean_rate(0.1, 5.0, 5.0, 400), 5.0, 1e-3);
     assert_true(mean_rate(0.1, 10.5, 10.5, 400) < 5.0);
+    /* without drag it follows at any rate, and swings about the field */
+    CHECK_CLOSE(mean_rate(0, 11, 11.5, 400), 11, 6e-3);
+}
+
+/* A free bead in a field that stands still, with kappa b/beta = 1: begin with the moment and the angular velocity. */
+static beads_flow *in_uniform_field(fst_model **model, beads_world *world, const double n[3],
+                                    const double spin[3])
+{
+    fst_params p = in_tesla();
+    set(&p, "magnet.shape", "parts");
+    set(&p, "field.uniform[0]", "1 mT");
+    *model = field_model(&p);
+    *world = free_beads(1);
+    world->surrounded = 1;
+    world->around = surroundings_of(*model);
+    double b[3], change[3], start[FST_BEAD_NUMBERS] = {0};
+    fst_gradient_double g;
+    fst_surroundings_field(&world->around, 0, (const double[3]){0, 0, 0}, b, &g, change);
+    world->body[0].strength = world->body[0].inertia / b[0];
+    memcpy(start + 6, n, 3 * sizeof *n);
+    memcpy(start + 9, spin, 3 * sizeof *spin);
+    return begin_beads(world, start, 1e-12);
+}
+
+/* A compass swings like a pendulum: let go at an angle a it is back after 2 pi/M(1, cos(a/2)), M the arithmetic-geometric
+ * mean. */
+static void test_compass(void **unused)
+{
+    (void)unused;
+    static const double angles[] = {0.1, 1.5, 3.0};
+    for (size_t i = 0; i < COUNT(angles); ++i) {
+        const double n[3] = {cos(angles[i]), sin(angles[i]), 0}, still[3] = {0, 0, 0};
+        double mean = 1, other = cos(angles[i] / 2);
+        for (int k = 0; k < 8; ++k) {
+            const double next = (mean + other) / 2;
+            other = sqrt(mean * other);
+            mean = next;
+        }
+        fst_model *model;
+        beads_world world;
+        beads_flow *flow = in_uniform_field(&model, &world, n, still);
+        go_to(flow, TURN / mean / 2);
+        CHECK_CLOSE(flow->step.y[7], -n[1], 1e-9);
+        go_to(flow, TURN / mean);
+        CHECK_CLOSE(flow->step.y[7], n[1], 1e-9);
+        CHECK_CLOSE(flow->step.y[11], 0, 1e-9);
+        free(flow);
+        fst_model_free(model);
+    }
+}
+
+/* Larmor's precession: a sphere that spins by s about its moment, which turns about the field at the rate -1/s, keeps
+ * their angle. */
+static void test_larmor(void **unused)
+{
+    (void)unused;
+    static const double spins[] = {30, 2, -0.7};
+    for (size_t i = 0; i < COUNT(spins); ++i) {
+        const double s = spins[i], rate = -1 / s, until = 20, n[3] = {cos(1.1), sin(1.1), 0};
+        fst_model *model;
+        beads_world world;
+        beads_flow *flow = in_uniform_field(&model, &world, n, (const double[3]){s * n[0] + rate, s * n[1], 0});
+        go_to(flow, until);
+        CHECK_CLOSE(flow->step.y[6], n[0], 1e-9);
+        CHECK_CLOSE(flow->step.y[7], n[1] * cos(rate * until), 1e-9);
+        CHECK_CLOSE(flow->step.y[8], n[1] * sin(rate * until), 1e-9);
+        free(flow);
+        fst_model_free(model);
+    }
 }
 
 /* The moment turns in a vertical plane, as the field of two wide coils does, and the bead rolls along: viscous friction
@@ -517,6 +586,16 @@ static void test_forward_lock(void **unused)
     wave_case c = {.ratio = 1.0, .omega = 4 * om0, .friction = 20};
     c.spin = c.omega / (1 + k_eps);
     CHECK_CLOSE(part_of_lock(&c, model, 600), -(1 - k_eps) / (1 + k_eps), 2e-3);
+    /* the two locks leave each other alone where their widths do not overlap, by Chirikov's rule; well below, it is lost */
+    for (int overlap = 0; overlap < 2; ++overlap) {
+        c.omega = (overlap ? 0.3 : 1.1) * (1 - k_eps * k_eps) * 2 * sqrt(WAVE_KAPPA / 1.4);
+        c.spin = c.omega / (1 + k_eps);
+        const double part = part_of_lock(&c, model, 1500) * -(1 + k_eps) / (1 - k_eps);
+        if (overlap)
+            assert_true(part < 0.5);
+        else
+            CHECK_CLOSE(part, 1, 2e-3);
+    }
     fst_model_free(model);
 }
 
@@ -528,6 +607,7 @@ int main(void)
         cmocka_unit_test(test_incline),          cmocka_unit_test(test_step_out),
         cmocka_unit_test(test_rolling_step_out), cmocka_unit_test(test_wave_is_a_pendulum),
         cmocka_unit_test(test_wave_thresholds),  cmocka_unit_test(test_forward_lock),
+        cmocka_unit_test(test_compass),          cmocka_unit_test(test_larmor),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
