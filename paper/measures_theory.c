@@ -1,5 +1,6 @@
 /* measures_theory.c - the Appendix on corotation, and beads that the field magnetises. */
 #include "base/constants.h"
+#include "paper/disc.h"
 #include "paper/measures_parts.h"
 
 /* ------------------------------------------------------------------ rapid corotation */
@@ -18,6 +19,26 @@ MEASURE(corotation_beads)
          "the magnet",
          FST_ANSATZ_DRIVES * FST_ANSATZ_STARTS, longest);
     return 100.0 * staying / (FST_ANSATZ_DRIVES * FST_ANSATZ_STARTS);
+}
+
+/* At the distance of the paper's bead at 10.7 Hz, and over the ends of the magnet's lines. */
+static const double disc_radii[2] = {0.77, 1.0};
+
+MEASURE_IN(disc_drive, FOLD4)
+{
+    NOTE("at r = %g, at r = %g from %.4g on; for weak friction. Below, the other part of the field shakes the "
+         "disc off by a "
+         "period doubling",
+         disc_radii[1], disc_radii[0], fst_disc_least_drive(model, disc_radii[0], 2.4, NULL));
+    return fst_disc_least_drive(model, disc_radii[1], 2.4, NULL);
+}
+
+MEASURE_IN(disc_hertz, FOLD4)
+{
+    const double hertz = run_of(m, FST_SCAN_FOLD4)->params.friction_gamma / (2.0 * FST_PI);
+    NOTE("at r = %g from %.4g Hz on", disc_radii[0],
+         hertz * fst_disc_least_drive(model, disc_radii[0], 2.4, NULL));
+    return hertz * fst_disc_least_drive(model, disc_radii[1], 2.4, NULL);
 }
 
 /* ------------------------------------------------------------------ beads that the field magnetises */
