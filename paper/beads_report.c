@@ -12,19 +12,19 @@ static const char *const heads[FST_ASK_COUNT] = {
     "followed from, Hz</th><th>beads in the bar</th><th>it breaks at, Hz"};
 
 static const char *const before[FST_ASK_COUNT] = {
-    "<h3>Together or apart</h3><p>Two beads that roll against the magnet an angle D apart attract each "
-    "other with the averaged potential −(χ/16 r³) cos D cos²(D/2)/sin³(D/2), which is greatest at cos D ="
-    " (5 − √33)/2, D = %.2f degrees: nearer beads should come together. The measured border lies lower "
-    "and moves with the drive, since the beads settle nearer to each other than they start, and each is "
-    "held on its orbit: what drifts is the phase between two orbits, not a free angle.</p>",
-    "<h3>Opposition</h3><p>Beads that stay apart end opposite each other. A disturbance of the angle then"
-    " dies away within hundreds of turns, or grows; it changes from one to the other at the drives of the"
-    " figure.</p>",
-    "<h3>Walkers</h3><p>Beads that come together touch for good, and their axis turns with the magnet. "
-    "Impacts decide whether their centre circles against the magnet, a walker, or rests on the axis, a "
-    "bar.</p>",
-    "<h3>Bars</h3><p>Bars are arches, from three beads on: the ends alone touch the plate. A bar breaks "
-    "where the force between two of its beads falls to zero.</p>"};
+    ("<h3>Together or apart</h3><p>Two beads that roll against the magnet an angle D apart attract each "
+     "other with the averaged potential −(χ/16 r³) cos D cos²(D/2)/sin³(D/2), which is greatest at cos D ="
+     " (5 − √33)/2, D = %.2f degrees: nearer beads should come together. The measured border lies lower "
+     "and moves with the drive, since the beads settle nearer to each other than they start, and each is "
+     "held on its orbit: what drifts is the phase between two orbits, not a free angle.</p>"),
+    ("<h3>Opposition</h3><p>Beads that stay apart end opposite each other. A disturbance of the angle then"
+     " dies away within hundreds of turns, or grows; it changes from one to the other at the drives of the"
+     " figure.</p>"),
+    ("<h3>Walkers</h3><p>Beads that come together touch for good, and their axis turns with the magnet. "
+     "Impacts decide whether their centre circles against the magnet, a walker, or rests on the axis, a "
+     "bar.</p>"),
+    ("<h3>Bars</h3><p>Bars are arches, from three beads on: the ends alone touch the plate. A bar breaks "
+     "where the force between two of its beads falls to zero.</p>")};
 
 static void write_row(FILE *out, const fst_beads_case *of, const fst_beads_answer *answer)
 {
