@@ -118,7 +118,7 @@ static void test_straight_rotor(void **unused)
     CHECK_CLOSE(z / near, 1, 0.02);
     assert_false(orbit.stable);
     const double growth = log(hypot(orbit.multipliers[0][0], orbit.multipliers[0][1])) * 200;
-    CHECK_WITHIN(growth, 18, 26); /* per second */
+    CHECK_CLOSE(growth, 23.3430, 1e-3); /* per second: by the program of test_levitation.c's swings */
 }
 
 /* The value of the only special point of a branch of a kind. */
