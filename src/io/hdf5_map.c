@@ -102,7 +102,9 @@ fst_status fst_hdf5_read_map(const char *path, const char *bytes, size_t size, f
     memset(map, 0, sizeof *map);
     fst_status status = FST_OK;
     fst_hdf5_session_begin(bytes, size, &s);
-    if (s.file < 0)
+    if (s.starved)
+        status = fst_fail(error, FST_NO_MEMORY, path, "out of memory");
+    else if (s.file < 0)
         status = fst_fail(error, FST_BAD_INPUT, path, "HDF5 cannot open this file: it is damaged or cut off");
     map->count[2] = 1;
     for (int axis = 0; axis < 3 && status == FST_OK; ++axis) {

@@ -274,26 +274,16 @@ static void abandon(fst_hdf5_writer *writer)
 
 /* ---------------------------------------------------------------- reading */
 
-/* Whether HDF5 says that it got no memory. */
-static herr_t look_for_memory(unsigned place, const H5E_error2_t *trouble, void *found)
-{
-    (void)place;
-    *(int *)found |= trouble->min_num == H5E_NOSPACE || trouble->min_num == H5E_CANTALLOC;
-    return 0;
-}
-
 /* Read one column.  The first one sets the number of rows. */
 static fst_status read_column(hid_t file, const char *path, const char *name, int first, double **data,
                               size_t *rows, fst_error *error)
 {
     hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
-    if (set < 0) {
-        int starved = 0;
-        (void)H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look_for_memory, &starved);
-        return starved ? fst_fail(error, FST_NO_MEMORY, path, "out of memory")
-                       : fst_fail(error, FST_BAD_INPUT, path,
-                                  "the column %s is missing: this is no trajectory of festoon", name);
-    }
+    if (set < 0)
+        return fst_hdf5_is_starved()
+                   ? fst_fail(error, FST_NO_MEMORY, path, "out of memory")
+                   : fst_fail(error, FST_BAD_INPUT, path,
+                              "the column %s is missing: this is no trajectory of festoon", name);
     hid_t space = H5Dget_space(set), type = H5Dget_type(set);
     hsize_t length = 0;
     const char *problem = NULL;
@@ -351,13 +341,16 @@ static fst_status fill_columns(const char *path, int needed, int count, double *
     return FST_OK;
 }
 
-static fst_status read_file(hid_t file, const char *path, const fst_column_info *const *columns, int needed,
-                            int count, double **data, size_t *rows, char **scene, char **result, int *complete,
-                            fst_error *error)
+static fst_status read_file(const fst_hdf5_session *session, const char *path,
+                            const fst_column_info *const *columns, int needed, int count, double **data,
+                            size_t *rows, char **scene, char **result, int *complete, fst_error *error)
 {
     fst_status status = FST_OK;
+    const hid_t file = session->file;
     int later = 0;
-    if (file < 0)
+    if (session->starved)
+        status = fst_fail(error, FST_NO_MEMORY, path, "out of memory");
+    else if (file < 0)
         status = fst_fail(error, FST_BAD_INPUT, path, "HDF5 cannot open this file: it is damaged or cut off");
     else
         status = read_root(file, path, scene, result, complete, error);
@@ -384,8 +377,7 @@ static fst_status read_all(const char *path, const char *bytes, size_t size,
         free(*scene);
         *scene = NULL;
         fst_hdf5_session_begin(bytes, size, &session);
-        status =
-            read_file(session.file, path, columns, needed, count, data, rows, scene, result, complete, error);
+        status = read_file(&session, path, columns, needed, count, data, rows, scene, result, complete, error);
         fst_hdf5_session_end(&session);
     }
     return status;

@@ -54,6 +54,20 @@ size_t fst_hdf5_most(void)
     return pages > 0 && page > 0 ? (size_t)pages / 2 * (size_t)page : (size_t)1 << 30;
 }
 
+static herr_t look_for_memory(unsigned place, const H5E_error2_t *trouble, void *found)
+{
+    (void)place;
+    *(int *)found |= trouble->min_num == H5E_NOSPACE || trouble->min_num == H5E_CANTALLOC;
+    return 0;
+}
+
+int fst_hdf5_is_starved(void)
+{
+    int starved = 0;
+    (void)H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look_for_memory, &starved);
+    return starved;
+}
+
 void fst_hdf5_session_begin(const char *bytes, size_t size, fst_hdf5_session *session)
 {
     char name[NAME_SIZE];
@@ -61,6 +75,7 @@ void fst_hdf5_session_begin(const char *bytes, size_t size, fst_hdf5_session *se
     const hid_t access = access_in_memory();
     const int failed = access < 0 || H5Pset_file_image(access, (void *)bytes, size) < 0; /* which copies them */
     session->file = failed ? -1 : H5Fopen(name_of(bytes, name), H5F_ACC_RDONLY, access);
+    session->starved = failed || (session->file < 0 && fst_hdf5_is_starved());
     if (access >= 0)
         (void)H5Pclose(access);
 }

@@ -31,9 +31,13 @@ void fst_hdf5_close(hid_t type, hid_t space);
 size_t fst_hdf5_most(void);
 
 typedef struct fst_hdf5_session {
-    hid_t file; /* negative: HDF5 cannot open it */
+    hid_t file;  /* negative: HDF5 cannot open it */
+    int starved; /* because it got no memory */
     fst_hdf5_told told;
 } fst_hdf5_session;
+
+/* Whether HDF5 says of its last failure that it got no memory. */
+int fst_hdf5_is_starved(void);
 
 /* Open the bytes of a file, and close them. */
 void fst_hdf5_session_begin(const char *bytes, size_t size, fst_hdf5_session *session);
