@@ -1,5 +1,5 @@
 """A sample of tests/reliability/whole.py: 60 allocations over all commands, and a write and a read of each
-(test_whole_long.py: each command at 25 places).
+(test_whole_long.py: each command at 12 places).
 
 tests: host/printed.c io/json_writer.c sweep/export.c cli/program.c cli/terminal.c
 labels: slow"""
