@@ -53,8 +53,7 @@ static const char *const settings[FST_ASK_COUNT] = {
     "run.discard=2400",
     "drive.frequency=%gHz beads[0].start.phi=3deg beads[1].start.phi=%gdeg",
     "drive.frequency=%gHz beads[0].start.phi=3deg beads[1].start.phi=40deg impact.restitution=%g "
-    "run.periods=200 "
-    "run.discard=100",
+    "run.periods=200 run.discard=100",
     "drive.frequency=%gHz start.spin=rest start.n[0]=1 start.n[1]=0 start.n[2]=0", /* and places */
 };
 

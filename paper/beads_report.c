@@ -1,7 +1,6 @@
 /* beads_report.c - the chapter "Several beads" of the report. */
 #include "paper/beads.h"
 #include "paper/report_parts.h"
-#include "base/constants.h"
 
 #include <math.h>
 
@@ -14,7 +13,7 @@ static const char *const heads[FST_ASK_COUNT] = {
 static const char *const before[FST_ASK_COUNT] = {
     ("<h3>Together or apart</h3><p>Two beads that roll against the magnet an angle D apart attract each "
      "other with the averaged potential −(χ/16 r³) cos D cos²(D/2)/sin³(D/2), which is greatest at cos D ="
-     " (5 − √33)/2, D = %.2f degrees: nearer beads should come together. The measured border lies lower "
+     " (5 − √33)/2, D = 111.86 degrees: nearer beads should come together. The measured border lies lower "
      "and moves with the drive, since the beads settle nearer to each other than they start, and each is "
      "held on its orbit: what drifts is the phase between two orbits, not a free angle.</p>"),
     ("<h3>Opposition</h3><p>Beads that stay apart end opposite each other. A disturbance of the angle then"
@@ -71,7 +70,7 @@ static void write_question(FILE *out, const fst_paper_beads *beads, fst_beads_qu
         if (fst_beads_cases[i].question != question || !beads->answers[i].done)
             continue;
         if (!last) {
-            fprintf(out, before[question], acos((5.0 - sqrt(33.0)) / 2.0) * 180.0 / FST_PI);
+            fputs(before[question], out);
             fprintf(out, "<table class=\"narrow\"><thead><tr><th>%s</th></tr></thead><tbody>\n",
                     heads[question]);
         }

@@ -15,6 +15,8 @@
 
 #include <math.h>
 
+const double fst_disc_radii[FST_DISC_PLACES] = {0.77, 1.0};
+
 double fst_disc_acceleration(const fst_disc *disc, double psi, double phi)
 {
     const fst_groups groups = fst_model_groups(disc->model);

@@ -4,6 +4,10 @@
 
 #include <festoon/festoon.h>
 
+/* Where discs are tried: at the distance of the paper's bead at 10.7 Hz, and over the ends of the magnet's lines. */
+enum { FST_DISC_PLACES = 2 };
+extern const double fst_disc_radii[FST_DISC_PLACES];
+
 /* A disc at the radius r, in a drive omega (gamma), without friction: what moves it is the magnet alone. */
 typedef struct fst_disc {
     const fst_model *model;

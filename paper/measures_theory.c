@@ -1,6 +1,5 @@
 /* measures_theory.c - the Appendix on corotation, and beads that the field magnetises. */
 #include "base/constants.h"
-#include "paper/disc.h"
 #include "paper/measures_parts.h"
 
 /* ------------------------------------------------------------------ rapid corotation */
@@ -21,24 +20,19 @@ MEASURE(corotation_beads)
     return 100.0 * staying / (FST_ANSATZ_DRIVES * FST_ANSATZ_STARTS);
 }
 
-/* At the distance of the paper's bead at 10.7 Hz, and over the ends of the magnet's lines. */
-static const double disc_radii[2] = {0.77, 1.0};
-
-MEASURE_IN(disc_drive, FOLD4)
+MEASURE(disc_drive)
 {
-    NOTE("at r = %g, at r = %g from %.4g on; for weak friction. Below, the other part of the field shakes the "
-         "disc off by a "
-         "period doubling",
-         disc_radii[1], disc_radii[0], fst_disc_least_drive(model, disc_radii[0], 2.4, NULL));
-    return fst_disc_least_drive(model, disc_radii[1], 2.4, NULL);
+    NOTE("at r = %g, at r = %g from %.4g on; for weak friction. Below, the disc is shaken off by a period "
+         "doubling",
+         fst_disc_radii[1], fst_disc_radii[0], m->paper->disc[0]);
+    return m->paper->disc[1];
 }
 
-MEASURE_IN(disc_hertz, FOLD4)
+MEASURE(disc_hertz)
 {
     const double hertz = run_of(m, FST_SCAN_FOLD4)->params.friction_gamma / (2.0 * FST_PI);
-    NOTE("at r = %g from %.4g Hz on", disc_radii[0],
-         hertz * fst_disc_least_drive(model, disc_radii[0], 2.4, NULL));
-    return hertz * fst_disc_least_drive(model, disc_radii[1], 2.4, NULL);
+    NOTE("at r = %g from %.4g Hz on", fst_disc_radii[0], hertz * m->paper->disc[0]);
+    return hertz * m->paper->disc[1];
 }
 
 /* ------------------------------------------------------------------ beads that the field magnetises */

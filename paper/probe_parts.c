@@ -82,8 +82,24 @@ double fst_paper_halving_line(const fst_paper_state *paper, fst_dynamics dynamic
 
 /* ------------------------------------------------------------------ rapid corotation */
 
+static fst_status disc_piece(fst_paper_state *paper, int place, fst_error *error)
+{
+    const fst_params params = probe_params(FST_DYNAMICS_RIGID, fst_ansatz_drives[0]);
+    fst_model *model;
+    const fst_status status = fst_model_new(&params, &model, error);
+    if (status != FST_OK)
+        return status;
+    paper->disc[place] = fst_disc_least_drive(model, fst_disc_radii[place], 2.4, NULL);
+    fst_model_free(model);
+    return FST_OK;
+}
+
+/* The discs, then the beads. */
 static fst_status ansatz_piece(fst_paper_state *paper, int index, fst_error *error)
 {
+    if (index < FST_DISC_PLACES)
+        return disc_piece(paper, index, error);
+    index -= FST_DISC_PLACES;
     int start = index % FST_ANSATZ_STARTS, drive = index / FST_ANSATZ_STARTS % FST_ANSATZ_DRIVES;
     fst_dynamics dynamics = (fst_dynamics)(index / (FST_ANSATZ_STARTS * FST_ANSATZ_DRIVES));
     fst_paper_ansatz *bead = &paper->ansatz[dynamics][drive][start];
@@ -152,8 +168,9 @@ fst_status fst_paper_make_probes(fst_paper_state *paper, const fst_paper_step *o
     const fst_paper_pieces parts[] = {
         {"period halving", 0.65, 0.72, FST_HALVING_POINTS * FST_PAPER_DYNAMICS, FST_PAPER_STEP_HALVING,
          halving_piece},
-        {"rapid corotation", 0.72, 0.75, FST_PAPER_DYNAMICS * FST_ANSATZ_DRIVES * FST_ANSATZ_STARTS,
-         FST_PAPER_STEP_ANSATZ, ansatz_piece},
+        {"rapid corotation", 0.72, 0.75,
+         FST_DISC_PLACES + FST_PAPER_DYNAMICS * FST_ANSATZ_DRIVES * FST_ANSATZ_STARTS, FST_PAPER_STEP_ANSATZ,
+         ansatz_piece},
         {"paramagnetic beads", 0.75, 0.87, FST_PAPER_DYNAMICS * paper->search_count, FST_PAPER_STEP_SEARCH,
          search_piece},
         {"identities", 0.87, 0.88, FST_PAPER_DYNAMICS * FST_BALANCE_CASES, FST_PAPER_STEP_BALANCES,

@@ -20,8 +20,11 @@ static int is_known(const fst_paper_state *paper, const char *id)
 {
     if (strcmp(id, "dry") == 0)
         return paper->dry && paper->done[FST_PAPER_STEP_DRY];
-    if (strcmp(id, "beads") == 0)
-        return paper->beads && paper->done[FST_PAPER_STEP_BEADS];
+    if (strcmp(id, "beads") == 0) { /* a reduced paper has not looked for the three drives */
+        double drives[FST_BEADS_CASES];
+        return paper->beads && paper->done[FST_PAPER_STEP_BEADS] &&
+               fst_beads_changes(paper->beads, drives) == 3;
+    }
     return fst_statement_known(fst_statement_named(id), paper);
 }
 
@@ -30,9 +33,9 @@ static double value_of(const fst_paper_state *paper, const char *column, const c
 {
     const fst_dynamics dynamics = strcmp(column, "printed") == 0 ? FST_DYNAMICS_FARAGO2020 : FST_DYNAMICS_RIGID;
     if (strncmp(id, "change", 6) == 0) {
-        double drives[FST_BEADS_CASES];
-        const int change = id[6] - '1';
-        return change < fst_beads_changes(paper->beads, drives) ? drives[change] : NAN;
+        double drives[FST_BEADS_CASES] = {NAN, NAN, NAN};
+        (void)fst_beads_changes(paper->beads, drives);
+        return drives[id[6] - '1'];
     }
     if (strcmp(id, "mu") == 0)
         return FST_DRY_MU;

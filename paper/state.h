@@ -13,6 +13,7 @@
 #ifndef FST_PAPER_STATE_H
 #define FST_PAPER_STATE_H
 
+#include "paper/disc.h"
 #include "paper/paper.h"
 #include "paper/paramagnet.h"
 #include "paper/probes.h"
@@ -154,6 +155,8 @@ typedef struct fst_paper_state {
     fst_paper_bracket changes[FST_CHANGE_COUNT][FST_PAPER_DYNAMICS];
     fst_paper_halving halving[FST_PAPER_DYNAMICS];
     fst_paper_ansatz ansatz[FST_PAPER_DYNAMICS][FST_ANSATZ_DRIVES][FST_ANSATZ_STARTS];
+    double disc
+        [FST_DISC_PLACES]; /* the least drive at which a disc goes with the magnet, stably; NAN: not found */
     fst_search_entry *search[FST_PAPER_DYNAMICS]; /* the same starts with both dynamics */
     int search_count;
     double mu;                 /* the coefficient of dry friction of all scans; 0: the paper's viscous law */
