@@ -259,33 +259,56 @@ static void test_contacts_that_open_together(void **unused)
     CHECK_CLOSE(r->energy_residual, 0, 1e-8);
 }
 
-/* A bead leans on another one that slips and spins under much dry friction: their contacts have no consistent state.  The
- * run ends there and says so. */
-static void test_no_state(void **unused)
+/* The first bead slips and spins under much dry friction, and the second leans on it: their contacts have no consistent
+ * state.  The others stand in a row, far from them. */
+static const fst_beads_result *result_of_leaning(int count)
 {
-    (void)unused;
     static const double lean = 0.2;
-    fst_params beads[2];
+    fst_params beads[8];
+    double state[8 * FST_BEAD_NUMBERS] = {0};
     two_beads(180, beads);
-    double state[2 * FST_BEAD_NUMBERS] = {0};
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < count; ++i) {
         double *bead = state + FST_BEAD_NUMBERS * i;
+        beads[i] = beads[0];
         beads[i].friction_law = FST_FRICTION_COULOMB;
         beads[i].friction_mu = 3;
-        bead[0] = (i ? EPS : -EPS) * cos(lean);
-        bead[2] = EPS + 2 * EPS * sin(lean) * i;
-        bead[3] = -2;
+        bead[2] = EPS;
         bead[6] = 1;
-        bead[10] = -15;
+        if (i < 2) {
+            bead[0] = (i ? EPS : -EPS) * cos(lean);
+            bead[2] += 2 * EPS * sin(lean) * i;
+            bead[3] = -2;
+            bead[10] = -15;
+        } else {
+            bead[0] = 2 * EPS * (i - 5);
+            bead[1] = 3;
+        }
     }
     fst_beads_options options = fst_default_beads_options();
     options.state = state;
-    const fst_beads_result *r = result_of(beads, 2, &options);
+    return result_of(beads, count, &options);
+}
+
+/* The run ends there and says so. */
+static void test_no_state(void **unused)
+{
+    (void)unused;
+    const fst_beads_result *r = result_of_leaning(2);
     assert_int_equal(r->outcome, FST_BEADS_UNDECIDED);
     assert_int_equal(r->paradox.motions, 0);
     assert_true(r->paradox.time == 0 && r->paradox.touch_count == 2 && r->group_count == 1);
-    CHECK_CONTAINS(r->reason, "there is no consistent state of 2 contacts");
+    CHECK_CONTAINS(r->reason, "paradox: at t = 0 there is no consistent state of 2 contacts");
     CHECK_CONTAINS(r->reason, "run.method: stepping goes on");
+}
+
+/* Of many contacts not all states are tried, and the run does not say that there is none. */
+static void test_no_state_found(void **unused)
+{
+    (void)unused;
+    const fst_beads_result *r = result_of_leaning(8);
+    assert_int_equal(r->outcome, FST_BEADS_UNDECIDED);
+    assert_true(r->paradox.motions == 0 && r->paradox.touch_count > 10);
+    CHECK_CONTAINS(r->reason, "crowded: at t = 0 no consistent state was found of ");
 }
 
 /* A plate that ends before the bead's orbit: it is ejected, the other, nearer to the axis, goes on. */
@@ -394,6 +417,7 @@ int main(void)
         cmocka_unit_test(test_opposite_pair),
         cmocka_unit_test(test_contacts_that_open_together),
         cmocka_unit_test(test_no_state),
+        cmocka_unit_test(test_no_state_found),
         cmocka_unit_test(test_walker_by_stepping),
         cmocka_unit_test(test_bar_by_stepping),
     };
