@@ -2,6 +2,7 @@
  * flow of beads, with a turning magnet, a part and a coil that stand still, and the field of the Earth.
  * tests: beads/flow.c model/surroundings.c
  * labels: cvode */
+#include "keys.h"
 #include "some_beads.h"
 
 #include <cvode/cvode.h>
@@ -23,11 +24,6 @@ static int rhs(realtype t, N_Vector y, N_Vector dy, void *user)
     beads_derivatives(&flow->world, &flow->modes, &look, full, rates);
     memcpy(N_VGetArrayPointer(dy), rates, FST_BEAD_NUMBERS * sizeof *rates);
     return 0;
-}
-
-static void set(fst_params *p, const char *key, const char *text)
-{
-    assert_int_equal(fst_params_set(p, key, text, NULL), FST_OK);
 }
 
 static void test_against_cvode(void **unused)

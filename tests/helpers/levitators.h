@@ -2,14 +2,7 @@
 #ifndef FST_TESTS_LEVITATORS_H
 #define FST_TESTS_LEVITATORS_H
 
-#include "physics.h"
-
-static inline void set(fst_params *p, const char *key, const char *value)
-{
-    fst_error error = {FST_OK, "", ""};
-    if (fst_params_set(p, key, value, &error) != FST_OK)
-        fail_msg("%s", error.sentence);
-}
+#include "keys.h"
 
 /* A rotor of 19 mm whose moment lies `tilt` degrees under the plane of its turn, and a floater of 12.7 mm, 1.2 T and
  * 7500 kg/m^3. */

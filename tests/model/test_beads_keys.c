@@ -1,17 +1,11 @@
 /* Beads of a list: their keys, what each says of its own, and what the setup says for it.
  * tests: model/bead_list.c model/bead_rows.c model/list_rows.c */
+#include "keys.h"
 #include "numeric.h"
 
 #include <stdio.h>
 
 #include <festoon/festoon.h>
-
-static void set(fst_params *p, const char *key, const char *value)
-{
-    fst_error error;
-    if (fst_params_set(p, key, value, &error) != FST_OK)
-        fail_msg("%s = %s: %s", key, value, error.sentence);
-}
 
 static fst_params alone(const fst_params *p, int bead)
 {

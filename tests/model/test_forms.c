@@ -1,18 +1,12 @@
 /* Quantities that have several forms: every two forms that clash, given by fst_params_set() or written into the
  * struct, in each order and in one go.
  * tests: model/forms.c model/param_table.c */
+#include "keys.h"
 #include "same_params.h"
 
 #include <stdlib.h>
 
 #include <festoon/festoon_tools.h>
-
-static void set(fst_params *params, const char *key, const char *value)
-{
-    fst_error error = {FST_OK, "", ""};
-    if (fst_params_set(params, key, value, &error) != FST_OK)
-        fail_msg("%s = %s: %s", key, value, error.sentence);
-}
 
 /* A number in the range of every form, and the default of none. */
 static double number_for(const char *key)

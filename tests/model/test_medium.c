@@ -4,16 +4,9 @@
 
 #include <festoon/beads.h>
 
-#include "physics.h"
+#include "keys.h"
 
 #include "model/medium.h"
-
-static void set(fst_params *p, const char *key, const char *value)
-{
-    fst_error error = {FST_OK, "", ""};
-    if (fst_params_set(p, key, value, &error) != FST_OK)
-        fail_msg("%s", error.sentence);
-}
 
 static fst_medium medium_of(const fst_params *p)
 {

@@ -2,6 +2,7 @@
  * nearest valid thing, and independence of the locale.
  * tests: model/params.c model/param_field.c model/param_table.c model/material.c base/error.c base/nearest.c
  *   base/units.c */
+#include "keys.h"
 #include "same_params.h"
 
 #include <locale.h>
@@ -189,13 +190,6 @@ static void messages_help(void **state)
     expect_message("magnet.lines", "2.5", "integer");
     expect_message("magnet.lines", "100", "1 to 99");
     expect_message("run.rtol", "nan", "no decimal number");
-}
-
-static void set(fst_params *params, const char *key, const char *value)
-{
-    fst_error error = {FST_OK, "", ""};
-    if (fst_params_set(params, key, value, &error) != FST_OK)
-        fail_msg("%s = %s: %s", key, value, error.sentence);
 }
 
 static double kappa_of(const fst_params *params)

@@ -1,6 +1,7 @@
 /* The keys of real magnets: what a scene says of parts and beads is read, written and read again to the same
  * bits; what cannot be is refused with the line and what was expected; and results in SI depend on no unit.
  * tests: model/part_rows.c model/part_geometry.c model/bead.c io/scene_parts.c */
+#include "keys.h"
 #include "same_params.h"
 
 #include <stdio.h>
@@ -196,13 +197,6 @@ static void refuse(const fst_params *before, const char *key, const char *value,
     if (!strstr(error.sentence, sentence))
         fail_msg("%s: %s", key, error.sentence);
     check_same_params(&params, before);
-}
-
-static void set(fst_params *params, const char *key, const char *value)
-{
-    fst_error error = {FST_OK, "", ""};
-    if (fst_params_set(params, key, value, &error) != FST_OK)
-        fail_msg("%s", error.sentence);
 }
 
 /* A magnet can be built key by key, and a number of a part is set like any other. */

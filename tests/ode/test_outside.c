@@ -6,14 +6,7 @@
  * labels: bits */
 #include <string.h>
 
-#include "physics.h"
-
-static void set(fst_params *params, const char *key, const char *value)
-{
-    fst_error error;
-    if (fst_params_set(params, key, value, &error) != FST_OK)
-        fail_msg("%s: %s", key, error.sentence);
-}
+#include "keys.h"
 
 static fst_flow *flow_with(const fst_model *model, const fst_outside *outside, const double *state)
 {
