@@ -38,7 +38,7 @@ class _Ran(Printed):
 
 
 class BeadsRun(_Ran):
-    """What several beads do.  Numbers are scaled (l, 1/gamma), those that `festoon run --json` prints."""
+    """The run of several beads: what `festoon run --json` prints, in scaled units (l, 1/gamma)."""
 
     #: The beads that ran.
     setup: "Beads"

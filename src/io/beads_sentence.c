@@ -93,7 +93,7 @@ static void tell_motion(const fst_bead_group *group, double omega, char *text, s
             group->centre_rate < 0 ? ", and its centre walks against it" : ", and its centre walks with it");
 }
 
-/* Add the groups of two and more beads, the largest first, then the beads alone, then those that left the plate. */
+/* Append what the groups do: first the largest group of touching beads, and last the beads that left the plate. */
 static void tell_groups(const fst_beads_result *result, char *text, size_t size)
 {
     int apart = 0, gone = 0, told = 0;
