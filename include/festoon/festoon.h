@@ -166,6 +166,7 @@ enum { FST_FORMS = 16 };
 typedef struct fst_params_notes {
     double seen[FST_FORMS]; /* what the fields of the forms held when the library last looked */
     int kappa_given;        /* whether model.kappa was given, also with the value that is its default */
+    int bare; /* the parameter last set by a bare number that is unlikely, from 1 on; 0: there is none */
 } fst_params_notes;
 /* The default of run.rtol, and of the tolerances of a flow. */
 #define FST_DEFAULT_RTOL 1e-10
@@ -337,6 +338,11 @@ FST_API fst_part_shape fst_part_seen(const fst_magnet_part *part);
  * they do not; otherwise a sentence that says so is left in `sentence`.  A run is possible all the same.  In a
  * scaled scene, with model.eps, the radius plays no part and 0 is returned. */
 FST_API int fst_bead_contradiction(const fst_params *params, char *sentence, size_t size);
+
+/* Whether fst_params_set() was given a bare number of more than 20 times the default that would be nearer to it in
+ * another unit, as magnet.depth=8 (which is 8 m) and drive.frequency=642 (Hz).  Returns 0 if not; otherwise a sentence that
+ * proposes the unit is left in `sentence`. */
+FST_API int fst_params_bare_number(const fst_params *params, char *sentence, size_t size);
 
 /* Whether the magnet's field is told in tesla (magnet.shape: parts), so that magnet.b0 is only a unit, and the
  * bead's moment gives kappa. */

@@ -226,6 +226,21 @@ fst_status fst_parse_value(const char *text, fst_unit unit, double *value, fst_e
     return fst_value_read(text, unit, value, error) == FST_VALUE_READ ? FST_OK : FST_BAD_INPUT;
 }
 
+const char *fst_unit_meant(fst_unit unit, double number, double usual)
+{
+    const char *meant = NULL;
+    double least = fabs(log(fabs(number / usual)));
+    for (const unit_row *row = unit_rows; row < unit_rows + unit_row_count; ++row) {
+        const double there = number * pow(10, row->shift) * row->times / row->over;
+        const double distance = fabs(log(fabs(there / usual)));
+        if (row->kind == unit && distance < least) {
+            least = distance;
+            meant = row->name;
+        }
+    }
+    return meant;
+}
+
 int fst_value_write(char *text, size_t size, double value, fst_unit unit)
 {
     char number[40], candidate[64];

@@ -91,6 +91,7 @@ static fst_status check_effects(const arguments *given, const fst_params *params
 
 fst_status read_scene(const arguments *given, const char *path, fst_params *params, fst_error *error)
 {
+    char doubt[512];
     *params = fst_default_params();
     if (path) {
         fst_status status = strcmp(path, "-") == 0 ? read_scene_from_input(params, given->beads, error)
@@ -109,6 +110,8 @@ fst_status read_scene(const arguments *given, const char *path, fst_params *para
     }
     if (isnan(params->run_duration))
         params->run_discard = fst_run_discard(params); /* what is printed is what is done */
+    if (fst_params_bare_number(params, doubt, sizeof doubt))
+        (void)fprintf(stderr, "festoon: warning: %s\n", doubt);
     const fst_status status = check_effects(given, params, error);
     if (status != FST_OK) {
         (void)snprintf(error->where, sizeof error->where, "%s", path ? path : "");

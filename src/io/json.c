@@ -310,6 +310,8 @@ char *fst_scene_json(const fst_params *params)
     fst_json_open(&json, "warnings", '[');
     if (fst_bead_contradiction(params, sentence, sizeof sentence))
         fst_json_text(&json, NULL, sentence);
+    if (fst_params_bare_number(params, sentence, sizeof sentence))
+        fst_json_text(&json, NULL, sentence);
     fst_json_close(&json);
     if (params->magnet_map)
         put_map(&json, params->magnet_map);

@@ -61,9 +61,13 @@ static fst_status set_number(fst_params *params, const fst_param_info *row, cons
     }
     size_t length;
     const char *trimmed = fst_trim(text, &length);
-    char shown[64];
+    char shown[64], remark[128] = "";
     (void)snprintf(shown, sizeof shown, "%.*s", (int)(length < 40 ? length : 40), trimmed);
-    const fst_status status = fst_param_check_range(row, value, shown, "", error);
+    const char *meant = fst_param_is_bare(text) ? fst_unit_meant(row->unit, value, row->initial) : NULL;
+    if (meant)
+        (void)snprintf(remark, sizeof remark, ", and %.9g without a unit is %.9g %s; did you mean %.9g %s?",
+                       value, value, fst_unit_name(row->unit), value, meant);
+    const fst_status status = fst_param_check_range(row, value, shown, remark, error);
     if (status == FST_OK)
         fst_param_put(params, row, value);
     return status;
@@ -146,6 +150,7 @@ fst_status fst_params_set(fst_params *params, const char *key, const char *text,
         fst_form_was_set(&made, key);
     if (coil == made.coil_count)
         ++made.coil_count;
+    fst_param_note_bare(&made, index, text);
     *params = made;
     return FST_OK;
 }

@@ -40,6 +40,11 @@ fst_status fst_param_check_range(const fst_param_info *row, double value, const 
 /* Whether a field that a program filled in by hand is what fst_params_set() would have let pass. */
 fst_status fst_param_validate(const fst_params *params, const fst_param_info *row, fst_error *error);
 
+/* Whether a text is a number without a unit; and note that the row `index` was set by this text, see
+ * fst_params_bare_number(). */
+int fst_param_is_bare(const char *text);
+void fst_param_note_bare(fst_params *params, int index, const char *text);
+
 /* The moment of the scene in A m^2, if it does not follow from kappa; NAN: not given. */
 double fst_given_moment(const fst_params *params);
 

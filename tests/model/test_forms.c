@@ -17,7 +17,10 @@ static double number_for(const char *key)
 static void set_number(fst_params *params, const char *key)
 {
     char text[32];
-    (void)snprintf(text, sizeof text, "%.17g", number_for(key));
+    const fst_unit unit =
+        fst_param_at(fst_param_find(key))->unit; /* with it, for without it some values are doubted */
+    (void)snprintf(text, sizeof text, "%.17g %s", number_for(key),
+                   unit == FST_UNIT_NUMBER ? "" : fst_unit_name(unit));
     set(params, key, text);
 }
 

@@ -1,6 +1,6 @@
 """A warning names a bead whose mass and radius contradict any material, in words and in the JSON of `check`.
 
-tests: model/material.c cli/check.c
+tests: model/material.c model/bare_number.c cli/check.c
 labels: numbers"""
 
 import json
@@ -31,6 +31,14 @@ class Material(unittest.TestCase):
         found = json.loads(out)["warnings"]
         self.assertEqual(err, "".join(f"festoon: warning: {sentence}\n" for sentence in found))
         return found
+
+    def test_a_bare_number_of_unlikely_size(self):
+        for setting, unit in (("magnet.depth=8", "8 mm"), ("drive.frequency=642", "642 rpm"), ("drive.omega=10.7", "10.7 Hz")):
+            self.assertIn(f"did you mean {'drive.frequency = ' * (unit == '10.7 Hz')}{unit}?", "".join(self.warnings([setting])))
+        with tempfile.TemporaryDirectory() as folder:
+            scene = Path(folder, "bare.yaml")
+            scene.write_text("magnet:\n  depth: 8\n", encoding="utf-8")
+            self.assertIn("did you mean 8 mm?", festoon("field", str(scene), "--at", "1,0")[2])
 
     def test_check_tells(self):
         for settings in self.IMPOSSIBLE:

@@ -414,9 +414,70 @@ static void faults_of_values(void **state)
     }
 }
 
+/* Every default written in the unit that people use, but without the unit: where it is then another value of more than 20
+ * times the size, the unit is proposed; with the unit nothing is said. */
+static void bare_numbers_are_doubted(void **state)
+{
+    (void)state;
+    int doubted = 0;
+    for (int i = 0; i < fst_param_count(); ++i) {
+        const fst_param_info *row = fst_param_at(i);
+        if (row->kind != FST_KIND_REAL || !(fabs(row->initial) > 0))
+            continue;
+        char text[64], sentence[512];
+        fst_params params = fst_default_params();
+        fst_error error = {FST_OK, "", ""};
+        (void)fst_value_write(text, sizeof text, row->initial, row->unit);
+        assert_int_equal(fst_params_set(&params, row->key, text, &error), FST_OK);
+        assert_int_equal(fst_params_bare_number(&params, sentence, sizeof sentence), 0);
+        char *unit = strchr(text, ' ');
+        if (!unit)
+            continue;
+        *unit++ = '\0';
+        if (strtod(text, NULL) <= 20 * fabs(row->initial))
+            continue;
+        ++doubted;
+        const char *said = sentence;
+        if (fst_params_set(&params, row->key, text, &error) != FST_OK)
+            said = error.sentence;
+        else
+            assert_int_not_equal(fst_params_bare_number(&params, sentence, sizeof sentence), 0);
+        assert_non_null(strstr(said, "did you mean "));
+        assert_non_null(strstr(strstr(said, "did you mean "), unit));
+        assert_int_equal(fst_params_set(&params, row->key, "1e-6", &error),
+                         FST_OK); /* it is no longer the case */
+        assert_int_equal(fst_params_bare_number(&params, sentence, sizeof sentence), 0);
+    }
+    assert_true(doubted >= 4);
+}
+
+static void bare_turns_a_minute_are_doubted(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *key, *text, *said;
+    } cases[] = {{"drive.frequency", "642", "did you mean 642 rpm"},
+                 {"drive.frequency", "642 Hz", NULL},
+                 {"drive.frequency", "200", NULL},
+                 {"drive.omega", "10.7", "did you mean drive.frequency = 10.7 Hz"},
+                 {"drive.omega", "3", NULL},
+                 {"friction.gamma", "1e4", NULL}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        char sentence[512];
+        fst_params params = fst_default_params();
+        assert_int_equal(fst_params_set(&params, cases[i].key, cases[i].text, NULL), FST_OK);
+        assert_int_equal(fst_params_bare_number(&params, sentence, sizeof sentence) != 0,
+                         cases[i].said != NULL);
+        if (cases[i].said)
+            assert_non_null(strstr(sentence, cases[i].said));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bare_numbers_are_doubted),
+        cmocka_unit_test(bare_turns_a_minute_are_doubted),
         cmocka_unit_test(table_is_consistent),
         cmocka_unit_test(units_are_read),
         cmocka_unit_test(wrong_values_are_refused),

@@ -1,0 +1,60 @@
+/* bare_number.c - numbers without a unit that are probably meant in another unit than SI's. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/constants.h"
+#include "base/number.h"
+#include "base/text.h"
+#include "base/units.h"
+#include "model/params.h"
+
+static const double UNLIKELY = 20; /* times the default */
+
+int fst_param_is_bare(const char *text)
+{
+    size_t length;
+    const char *trimmed = fst_trim(text, &length);
+    return length > 0 && fst_number_length(trimmed) == length;
+}
+
+/* drive.omega has no unit, and no default of its own: the frequency that it stands for. */
+static double frequency_of(const fst_params *params)
+{
+    return params->drive_omega * params->friction_gamma / (2 * FST_PI);
+}
+
+static int is_unlikely(const fst_params *params, const fst_param_info *row)
+{
+    if (strcmp(row->key, "drive.omega") == 0)
+        return frequency_of(params) > UNLIKELY * fst_param_at(fst_param_find("drive.frequency"))->initial;
+    return row->kind == FST_KIND_REAL && fabs(fst_param_value(params, row)) > UNLIKELY * fabs(row->initial) &&
+           fst_unit_meant(row->unit, fst_param_value(params, row), row->initial);
+}
+
+void fst_param_note_bare(fst_params *params, int index, const char *text)
+{
+    if (fst_param_is_bare(text) && is_unlikely(params, fst_param_at(index)))
+        params->notes.bare = index + 1;
+    else if (params->notes.bare == index + 1)
+        params->notes.bare = 0;
+}
+
+int fst_params_bare_number(const fst_params *params, char *sentence, size_t size)
+{
+    const fst_param_info *row = fst_param_at(params->notes.bare - 1);
+    if (size > 0)
+        sentence[0] = '\0';
+    if (!row || !is_unlikely(params, row))
+        return 0;
+    const double value = fst_param_value(params, row);
+    if (row->unit == FST_UNIT_NUMBER)
+        return snprintf(sentence, size,
+                        "drive.omega = %.15g is an angular velocity in units of friction.gamma, here %.4g "
+                        "turns a second; did "
+                        "you mean drive.frequency = %.15g Hz?",
+                        value, frequency_of(params), value);
+    return snprintf(sentence, size,
+                    "%s = %.15g was read as %.15g %s, %.0f times the default; did you mean %.15g %s?", row->key,
+                    value, value, fst_unit_name(row->unit), fabs(value / row->initial), value,
+                    fst_unit_meant(row->unit, value, row->initial));
+}
