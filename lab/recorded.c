@@ -206,7 +206,7 @@ EXPORT(lab_radius) double lab_radius(lab *l, int bead)
 /* ---------------------------------------------------------------- the result */
 
 /* Of a world: its frame; then final_time, the end on the laboratory's axes, scaled and in SI, and in its frame,
- * mean_height and mean_medium_power. */
+ * mean_height, mean_medium_power and mean_velocity. */
 EXPORT(lab_world_frame) const char *lab_world_frame(const lab *l)
 {
     return l->world.frame == FST_FRAME_LABORATORY ? "laboratory" : "turning";
@@ -221,6 +221,7 @@ EXPORT(lab_world_numbers) const double *lab_world_numbers(lab *l)
     memcpy(out + 25, l->world.final_state, sizeof l->world.final_state);
     out[37] = l->world.mean_height;
     out[38] = l->world.mean_medium_power;
+    out[39] = l->world.mean_velocity;
     return out;
 }
 

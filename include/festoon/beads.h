@@ -15,7 +15,7 @@ extern "C" {
 #endif
 
 /* Increased when the same beads give other numbers than before; a sweep goes on only under the same version. */
-#define FST_BEADS_RESULTS_VERSION 2
+#define FST_BEADS_RESULTS_VERSION 3
 
 enum { FST_BEAD_TOUCHES = 36, FST_BEADS_EVENTS = 1000 };
 
@@ -88,6 +88,8 @@ typedef struct fst_bead_result {
     double mean_load_weights; /* load on the plate over the bead's weight; NAN without gravity or plate */
     double mean_height;       /* over the magnet's reference plane, without a plate; else NAN */
     double ejected_at;        /* 1/gamma; NAN: it was not */
+    double mean_velocity,
+        mean_velocity_error; /* along a wave; the limit of its error; NAN: no wave, or the bead is gone */
     double final_state[FST_BEAD_NUMBERS];
 } fst_bead_result;
 
@@ -265,6 +267,7 @@ typedef struct fst_world_result {
     fst_run_result run; /* numbers that a world does not have are NAN */
     double mean_height; /* over the magnet's reference plane, without a plate; else NAN */
     double mean_medium_power;
+    double mean_velocity, mean_velocity_error; /* along a wave, as of an fst_bead_result */
     int frame;         /* fst_frame: of the computation and of final_state, turning or laboratory */
     double final_time; /* 1/gamma */
     double final_state[FST_BEAD_NUMBERS], final_lab[FST_BEAD_NUMBERS]; /* on the laboratory's axes */

@@ -286,10 +286,10 @@ export class Core {
 
     worldResult() {
         const run = this.result(), frame = this.text(this.c.lab_world_frame(this.bead));
-        const numbers = Array.from(this.doubles(this.c.lab_world_numbers(this.bead), 39), number);
+        const numbers = Array.from(this.doubles(this.c.lab_world_numbers(this.bead), 40), number);
         return {
             ...run, frame, final_time: numbers[0], final_lab: numbers.slice(1, 13), final_lab_si: numbers.slice(13, 25),
-            final_state: numbers.slice(25, 37), mean_height: numbers[37], mean_medium_power: numbers[38],
+            final_state: numbers.slice(25, 37), mean_height: numbers[37], mean_medium_power: numbers[38], mean_velocity: numbers[39],
         };
     }
 

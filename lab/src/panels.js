@@ -406,6 +406,7 @@ export class Panels {
             [T.rows.slip, result.rms_slip === null ? "–" : `${digits(result.rms_slip * mm / result.groups.time_unit_s, 3)} mm/s`],
             ...(result.never_slips === null ? [] : [[T.rows.sticking, result.sticking === null ? "–" : `${digits(100 * result.sticking, 3)} %`]]),
             [T.rows.symmetry, T.symmetries[result.symmetry] || "–"],
+            ...(Number.isFinite(result.mean_velocity) ? [[T.rows.velocity, `${digits(result.mean_velocity * mm / result.groups.time_unit_s)} mm/s`]] : []),
             ...(Number.isFinite(result.mean_height) ? [[T.rows.height, `${digits(result.mean_height * mm)} mm`]] : []),
         ];
         this.fill(lab.recording ? rows.filter(([, value]) => value !== "–") : rows);

@@ -86,7 +86,7 @@ const EN = {
     live: (turns, seconds) => `turn ${turns} · ${seconds} s`,
     rows: {
         mean_r: "mean distance from the axis", std_r: "swing of the distance (root mean square)", bead: "bead circles", festoons: "festoons a lap", angle: "moment against field, at most",
-        sticking: "contact at rest", symmetry: "symmetry", slip: "slip of the contact (root mean square)", height: "mean height over the rotor's middle", touching: "in touch at the end", impacts: "lost in impacts",
+        sticking: "contact at rest", symmetry: "symmetry", slip: "slip of the contact (root mean square)", height: "mean height over the rotor's middle", velocity: "mean velocity along the wave", touching: "in touch at the end", impacts: "lost in impacts",
     },
     symmetries: { S1: "one pole draws the path (S1)", S2: "both poles alike draw it (S2)" },
     against: "against the magnet", along: "with the magnet", or: "or",
@@ -99,6 +99,9 @@ const EN = {
         levitating: () => "Levitating: it floats, and nothing touches it.",
         touched: () => "Touched: it falls on the magnet.",
         lost: () => "Lost: it flies away.",
+        backward: () => "Backward: the bead rolls against the wave, and its moment turns with the field below it.",
+        forward: () => "Forward: the bead rolls with the wave, and its moment turns with the field from above.",
+        drifting: () => "Drifting: the wave runs on under the bead, which keeps to none of its fields.",
         ejected: () => "Ejected: the bead leaves the plate.",
         lifted: () => "Lifted: the load vanishes and the bead jumps, which this model does not follow.",
         undecided: (m) => (m.oneOff ? "This drive leaves the bead no name for what it does." : m.free ? `Without friction nothing calms the bead: it wanders, ${m.r} mm from the axis on average, and never forgets how it began.`

@@ -1,7 +1,12 @@
 /* seen.c - what is told of beads over a window of time: means, groups, powers, outcome.
  *
  * A motion is undecided where its groups are others at the end than at the window's start, or where the mean r of
- * a bead in the second half of the window is another than in the first.
+ * a bead in the second half of the window is another than in the first; in a wave, which carries beads on for ever,
+ * where its mean velocity is.  There a bead is locked if its moment, n = (cos phi, 0, -sin phi), keeps to the field from
+ * below it, at the angle th = k x - omega t, or to that from above, at -th, by less than half a turn in either half of the
+ * window, and if its mean velocity is about what rolling makes of phi' = th' or -th':
+ *
+ *     U = eps phi' = -eps omega/(1 - k eps),    or    eps omega/(1 + k eps).
  */
 #include "beads/seen.h"
 
@@ -10,17 +15,21 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "base/listed.h"
 
 static const double UNSETTLED = 0.05;   /* greatest change of a mean r between the halves of the window */
 static const double WITH_MAGNET = 0.02; /* rates that differ by less, over omega, are the same */
 static const double AT_AXIS = 0.5;      /* a centre nearer than this part of a radius stays at the axis */
-static const double AT_REST = 1e-6;     /* speed in the turning frame below which a bead is locked */
+static const double ROLLS =
+    0.5; /* a bead in the lock of a wave has its velocity, but for such a part: drag makes it slip */
+static const double STUDENT = 6.35; /* 95 % limit of a mean's error over the difference of two halves: 12.7/2 */
+static const double AT_REST = 1e-6; /* speed in the turning frame below which a bead is locked */
 
 /* Numbers of a group that are followed, and of a bead in a moment. */
 enum { TURNED, CENTRE_R, AXIS, OF_GROUP };
-enum { R, LOAD, ANGLE, OF_BEAD };
+enum { R, LOAD, ANGLE, X, OF_BEAD };
 
 const char *fst_bead_event_name(fst_bead_event_kind kind)
 {
@@ -88,6 +97,10 @@ void beads_find_centres(const beads_seen *seen, const beads_groups *groups, doub
         c[3] = c[2] > 0 ? (c[0] * v[0] + c[1] * v[1]) / (mass * c[2]) : 0.0;
         beads_way(seen->world, seen->y, first, last, d);
         memcpy(c + 4, d, 2 * sizeof *c);
+        if (group->count == 1) { /* its moment's angle phi */
+            c[4] = seen->y[FST_BEAD_NUMBERS * first + BEADS_N];
+            c[5] = -seen->y[FST_BEAD_NUMBERS * first + BEADS_N + 2];
+        }
     }
 }
 
@@ -116,6 +129,8 @@ void beads_keep(const beads_seen *seen, const beads_groups *groups, beads_moment
     memcpy(moment->numbers + n * R, seen->r, n * sizeof *seen->r);
     memcpy(moment->numbers + n * LOAD, seen->load, n * sizeof *seen->load);
     memcpy(moment->numbers + n * ANGLE, seen->turned, n * sizeof *seen->turned);
+    for (size_t i = 0; i < n; ++i)
+        moment->numbers[n * X + i] = seen->y[FST_BEAD_NUMBERS * i];
     memcpy(moment->numbers + n * OF_BEAD, groups->numbers, n * OF_GROUP * sizeof *groups->numbers);
 }
 
@@ -154,10 +169,31 @@ static fst_regime regime_of(const beads_seen *seen, int i, double mean_alpha_dot
     return mean_alpha_dot < 0 ? FST_REGIME_COUNTER_ROTATING : FST_REGIME_COROTATING;
 }
 
-static void tell_beads(const beads_seen *seen, const beads_moment *from, const beads_moment *to,
-                       fst_bead_result *beads)
+static int is_in_wave(const beads_world *world)
+{
+    return world->surrounded && world->around.drive.kind == FST_WAVEFORM_WAVE;
+}
+
+/* Whether bead i, which is the group g, is locked to the field from below (side = 1) or from above (-1). */
+static int is_locked_to_wave(const beads_seen *seen, const beads_moment at[3], int i, int g, int side)
+{
+    const int n = seen->world->count, axis = n * OF_BEAD + OF_GROUP * g + AXIS;
+    const double k = seen->world->around.wave_number, omega = seen->world->omega,
+                 eps = seen->world->body[i].radius;
+    const double rolls = -side * eps * omega / (1.0 - side * k * eps);
+    int keeps = fabs(mean_rate(n, &at[0], &at[2], X, i) - rolls) < ROLLS * fabs(rolls);
+    for (int half = 0; half < 2; ++half) {
+        const beads_moment *from = &at[half], *to = &at[half + 1];
+        const double passed = (to->time - from->time) * (k * mean_rate(n, from, to, X, i) - omega);
+        keeps = keeps && fabs(to->numbers[axis] - from->numbers[axis] - side * passed) < FST_PI;
+    }
+    return keeps;
+}
+
+static void tell_beads(const beads_seen *seen, const beads_moment at[3], fst_bead_result *beads)
 {
     const int n = seen->world->count, over_plate = !isnan(seen->world->plate);
+    const beads_moment *from = &at[0], *to = &at[2];
     for (int i = 0; i < n; ++i) {
         fst_bead_result *bead = &beads[i];
         bead->mean_r = mean_rate(n, from, to, R, i);
@@ -168,16 +204,22 @@ static void tell_beads(const beads_seen *seen, const beads_moment *from, const b
         bead->mean_height = over_plate ? NAN : load;
         bead->ejected_at = seen->ejected[i];
         bead->regime = regime_of(seen, i, bead->mean_alpha_dot);
+        bead->mean_velocity = is_in_wave(seen->world) ? mean_rate(n, from, to, X, i) : NAN;
+        bead->mean_velocity_error =
+            STUDENT * fabs(mean_rate(n, &at[1], to, X, i) - mean_rate(n, from, &at[1], X, i));
         if (seen->gone[i])
-            bead->mean_r = bead->mean_alpha_dot = bead->mean_load_weights = bead->mean_height = NAN;
+            bead->mean_r = bead->mean_alpha_dot = bead->mean_load_weights = bead->mean_height =
+                bead->mean_velocity = NAN;
+        if (isnan(bead->mean_velocity))
+            bead->mean_velocity_error = NAN;
         memcpy(bead->final_state, seen->y + FST_BEAD_NUMBERS * i, sizeof bead->final_state);
         bead->final_state[2] += over_plate ? seen->world->body[i].radius : 0.0;
     }
 }
 
-static void tell_groups(const beads_seen *seen, const beads_moment *from, const beads_moment *to, int same,
-                        fst_beads_result *result)
+static void tell_groups(const beads_seen *seen, const beads_moment at[3], int same, fst_beads_result *result)
 {
+    const beads_moment *from = &at[0], *to = &at[2];
     const double omega = seen->world->omega, time = to->time - from->time;
     const double *first = from->numbers + OF_BEAD * result->count,
                  *last = to->numbers + OF_BEAD * result->count;
@@ -186,6 +228,11 @@ static void tell_groups(const beads_seen *seen, const beads_moment *from, const 
         group->mean_r = group->centre_rate = group->axis_rate = NAN;
         if (!same)
             continue;
+        if (is_in_wave(seen->world) && group->count == 1)
+            result->beads[group->members[0]].regime =
+                is_locked_to_wave(seen, at, group->members[0], g, 1)    ? FST_REGIME_BACKWARD
+                : is_locked_to_wave(seen, at, group->members[0], g, -1) ? FST_REGIME_FORWARD
+                                                                        : FST_REGIME_DRIFTING;
         group->mean_r = (last[CENTRE_R] - first[CENTRE_R]) / time;
         if (group->mean_r > AT_AXIS * seen->world->body[group->members[group->count - 1]].radius)
             group->centre_rate = omega + (last[TURNED] - first[TURNED]) / time;
@@ -247,16 +294,22 @@ static int was_ejected(const beads_seen *seen, fst_beads_result *result)
     return 0;
 }
 
-/* Whether mean r, or without a plate the height in LOAD, is the same in both halves of the window. */
+/* Whether mean r, without a plate the height in LOAD, or in a wave the velocity, is the same in both halves of the
+ * window. */
 static int has_settled(const beads_seen *seen, const beads_moment at[3], int number, fst_beads_result *result)
 {
     for (int i = 0; i < result->count; ++i) {
         const double first = mean_rate(result->count, &at[0], &at[1], number, i);
         const double second = mean_rate(result->count, &at[1], &at[2], number, i);
-        if (fabs(second - first) > UNSETTLED * fmax(result->beads[i].mean_r, seen->world->body[i].radius)) {
+        const double radius = seen->world->body[i].radius,
+                     scale = number == X ? radius * seen->world->omega : fmax(result->beads[i].mean_r, radius);
+        if (fabs(second - first) > UNSETTLED * scale) {
             (void)snprintf(result->reason, sizeof result->reason,
                            "bead %d has not settled: its mean %s goes from %.4g to %.4g in the window", i,
-                           number == R ? "r" : "height", first, second);
+                           number == R   ? "r"
+                           : number == X ? "velocity along the wave"
+                                         : "height",
+                           first, second);
             return 0;
         }
     }
@@ -276,7 +329,7 @@ static void decide(const beads_seen *seen, const beads_moment at[3], int same, f
                        "run.discard larger");
         return;
     }
-    if (!has_settled(seen, at, R, result) ||
+    if (!has_settled(seen, at, is_in_wave(seen->world) ? X : R, result) ||
         (isnan(seen->world->plate) && !has_settled(seen, at, LOAD, result)))
         return;
     for (int g = 1; g < result->group_count; ++g)
@@ -291,8 +344,8 @@ void beads_conclude(const beads_seen *seen, const beads_groups *groups, const be
     const beads_moment *from = &at[0], *to = &at[2];
     const double time = to->time - from->time;
     const int same = same_groups(groups, result);
-    tell_beads(seen, from, to, result->beads);
-    tell_groups(seen, from, to, same, result);
+    tell_beads(seen, at, result->beads);
+    tell_groups(seen, at, same, result);
     decide(seen, at, same, result);
     result->drive_power = (to->work[BEADS_DRIVE] - from->work[BEADS_DRIVE]) / time;
     result->plate_power = (to->work[BEADS_PLATE] - from->work[BEADS_PLATE]) / time;

@@ -19,13 +19,14 @@ typedef struct beads_seen {
 typedef struct beads_groups {
     int count, *members;
     fst_bead_group *group;
-    double *numbers; /* of each group, in threes: angle of the centre, integral of its r, angle of the axis */
+    double *numbers; /* of each group, in threes: angle of the centre, integral of its r, angle of the axis
+                        (of a single bead, of its moment in the plane of x and z) */
 } beads_groups;
 
 /* The same numbers at a moment, kept. */
 typedef struct beads_moment {
     double time, impacts, work[BEADS_R];
-    double *numbers; /* of each bead: r, load, turned; behind these those of the groups */
+    double *numbers; /* of each bead: r, load, turned, x; behind these those of the groups */
 } beads_moment;
 
 /* Room for what is told of `count` beads.  FST_NO_MEMORY; free it in either case. */

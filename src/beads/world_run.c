@@ -65,6 +65,15 @@ static void give_reason(const fst_beads_result *beads, const fst_groups *g, fst_
     } else if (bead->regime == FST_REGIME_LEVITATING)
         (void)snprintf(run->reason, room, "it stays, on average %.5g mm over the magnet's reference plane",
                        bead->mean_height * mm);
+    else if (bead->regime == FST_REGIME_BACKWARD || bead->regime == FST_REGIME_FORWARD)
+        (void)snprintf(
+            run->reason, room, "it rolls %s the wave, locked to its field from %s, on average at %.5g mm/s",
+            bead->regime == FST_REGIME_FORWARD ? "with" : "against",
+            bead->regime == FST_REGIME_FORWARD ? "above" : "below", bead->mean_velocity * mm / seconds);
+    else if (bead->regime == FST_REGIME_DRIFTING)
+        (void)snprintf(run->reason, room,
+                       "its velocity is that of no lock: on average %.5g mm/s along the wave",
+                       bead->mean_velocity * mm / seconds);
     else if (bead->regime == FST_REGIME_UNDECIDED)
         (void)snprintf(run->reason, room,
                        "under this drive a motion has no word of its own; the bead circles at %.4g Hz",
@@ -97,6 +106,8 @@ static void fill(const fst_params *params, const fst_groups *g, const fst_surrou
     run->rejected = beads->rejected;
     result->mean_height = bead->mean_height;
     result->mean_medium_power = beads->medium_power;
+    result->mean_velocity = bead->mean_velocity;
+    result->mean_velocity_error = bead->mean_velocity_error;
     result->final_time = run->end_time;
     memcpy(result->final_state, bead->final_state, sizeof result->final_state);
     result->frame = fst_frame_of_world(params);

@@ -48,6 +48,8 @@ static fst_status print_world(const fst_params *params, const fst_world_result *
     print_line(out, "mean distance from the axis", run->mean_r * mm, "mm");
     print_line(out, "mean height", result->mean_height * mm, "mm");
     print_line(out, "bead's circling <alpha'>", run->mean_alpha_dot / (TWO_PI * g.time_unit), "Hz");
+    print_line(out, "mean velocity along the wave", result->mean_velocity * mm / g.time_unit, "mm/s");
+    print_line(out, "limit of its error", result->mean_velocity_error * mm / g.time_unit, "mm/s");
     print_line(out, "load on the plate", run->mean_load_weights, "weights");
     print_line(out, "power of the drive", run->mean_drive_power * watts, "W");
     print_line(out, "power lost to friction", run->mean_friction_power * watts, "W");

@@ -24,8 +24,9 @@ static fst_status axes_of(const fst_grid *grid, const char *path, fst_shown_unit
 }
 
 /* The keys that are shown unless others are asked for; returns how many. */
-static int choose_keys(fst_row_kind kind, int varied, const char *keys[USUAL])
+static int choose_keys(const fst_grid *grid, int varied, const char *keys[USUAL])
 {
+    const fst_row_kind kind = fst_grid_row_kind(grid);
     static const char *const curves[][USUAL] = {
         [FST_ROWS_OF_RUNS] = {"mean_r", "std_r", "mean_alpha_dot", "regime"},
         [FST_ROWS_OF_BEADS] = {"outcome", "mean_r", "centre_rate", "axis_rate"},
@@ -36,6 +37,11 @@ static int choose_keys(fst_row_kind kind, int varied, const char *keys[USUAL])
     int count = 0;
     for (; count < USUAL && curves[kind][count] && !is_map; ++count)
         keys[count] = curves[kind][count];
+    if (kind == FST_ROWS_OF_WORLDS && fst_grid_base(grid)->drive_waveform == FST_WAVEFORM_WAVE && !is_map) {
+        keys[0] = "mean_velocity"; /* it travels, and r grows for ever */
+        keys[1] = "regime";
+        return 2;
+    }
     if (is_map)
         keys[count++] = kind == FST_ROWS_OF_LEVITATION ? "below"
                         : kind == FST_ROWS_OF_BEADS    ? "outcome"
@@ -63,7 +69,7 @@ fst_status fst_figure_sweep(const char *path, const char *const *keys, int count
         status = fst_fail(error, FST_BAD_INPUT, "fst_figure_sweep.keys", "a figure shows at most %d keys",
                           MOST_KEYS);
     const char *usual[USUAL];
-    const int usual_count = choose_keys(fst_grid_row_kind(grid), varied, usual);
+    const int usual_count = choose_keys(grid, varied, usual);
     const char *const *shown = count > 0 ? keys : usual;
     const int shown_count = count > 0 ? count : usual_count;
     for (int i = 0; i < shown_count && status == FST_OK; ++i) {

@@ -49,6 +49,7 @@ static const word results[] = {
     {"mean_nz", "⟨n_z⟩"},
     {"festoons", "festoons N"},
     {"mean_height", "mean height"},
+    {"mean_velocity", "mean velocity along the wave"},
     {"below", "Floating below the magnet"},
     {"above", "Floating above the magnet"},
     {"below_height_mm", "height below the magnet (mm)"},

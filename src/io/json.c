@@ -240,6 +240,8 @@ static void put_world(fst_json *json, const fst_world_result *result)
     fst_json_reals(json, "final_lab_si", result->final_lab_si, FST_BEAD_NUMBERS);
     fst_json_real(json, "mean_height", result->mean_height);
     fst_json_real(json, "mean_medium_power", result->mean_medium_power);
+    fst_json_real(json, "mean_velocity", result->mean_velocity);
+    fst_json_real(json, "mean_velocity_error", result->mean_velocity_error);
 }
 
 char *fst_world_line(const fst_params *params, const fst_world_result *result)

@@ -25,78 +25,64 @@
     FLOATS(name "_gap_mm", REAL, NULL, side[k].gap_mm)                                                         \
     FLOATS(name "_growth_per_s", REAL, NULL, side[k].growth_per_s)
 
-/* clang-format off: a line a column */
+/* A line a column. */
+/* clang-format off */
 static const fst_bead_column columns[] = {
-    BEADS("outcome", NAME, FST_WORDS(FST_BEADS_OUTCOMES), "1",
-          outcome) BEADS("groups", INT, NULL, "1",
-                         group_count) BEADS("largest_kind", NAME, FST_WORDS(FST_BEAD_GROUPS), "1",
-                                            largest_kind) BEADS("largest_beads", INT, NULL, "1", largest_count)
-        BEADS("mean_r", REAL, NULL, "l", mean_r) BEADS("centre_rate", REAL, NULL, "gamma", centre_rate) BEADS(
-            "axis_rate", REAL, NULL, "gamma",
-            axis_rate) BEADS("drive_power", REAL, NULL, "l^2 gamma^3",
-                             drive_power) BEADS("plate_power", REAL, NULL, "l^2 gamma^3", plate_power)
-            BEADS("pair_power", REAL, NULL, "l^2 gamma^3", pair_power) BEADS(
-                "impact_power",
-                REAL,
-                NULL,
-                "l^2 gamma^3",
-                impact_power) BEADS("energy_residual", REAL, NULL, "l^2 gamma^2", energy_residual)
-                FST_BEAD_EVENT_LIST(COUNT) BEADS("periods", REAL, NULL, "1", periods) BEADS(
-                    "method",
-                    NAME,
-                    FST_WORDS(FST_BEADS_METHODS),
-                    "1", method) BEADS("rhs_calls", COUNT, NULL, "1", rhs_calls)
-                    BEADS("steps_accepted", COUNT, NULL, "1", accepted) BEADS(
-                        "steps_rejected",
-                        COUNT, NULL, "1",
-                        rejected) WORLD("regime", NAME, FST_WORDS(FST_REGIMES), "1", result.regime)
-                        WORLD("frame", NAME, FST_WORDS(FST_FRAMES), "1", world.frame) WORLD(
-                            "omega", REAL, NULL, "gamma",
-                            result.omega) WORLD("frequency_hz", REAL, NULL, "1", result.frequency_hz)
-                            WORLD("mean_r", REAL, NULL,
-                                  "l", result.mean_r) WORLD("mean_height", REAL, NULL, "l", world.mean_height)
-                                WORLD("mean_alpha_dot", REAL, NULL, "gamma", result.mean_alpha_dot) WORLD(
-                                    "mean_load_weights", REAL, NULL,
-                                    "1", result.mean_load_weights) WORLD("mean_drive_power", REAL, NULL,
-                                                                         "l^2 gamma^3", result.mean_drive_power)
-                                    WORLD("mean_friction_power", REAL, NULL, "l^2 gamma^3",
-                                          result.mean_friction_power)
-                                        WORLD("mean_medium_power", REAL, NULL, "l^2 gamma^3",
-                                              world.mean_medium_power)
-                                            WORLD("mean_impact_power", REAL, NULL, "l^2 gamma^3",
-                                                  result.mean_impact_power)
-                                                WORLD("energy_residual", REAL, NULL, "1",
-                                                      result.energy_residual)
-                                                    WORLD("end_time", REAL, NULL, "1/gamma", result.end_time)
-                                                        WORLD("periods", REAL, NULL, "1", result.periods) WORLD(
-                                                            "window_periods",
-                                                            REAL,
-                                                            NULL,
-                                                            "1", result.window_periods)
-                                                            WORLD("rhs_calls", COUNT, NULL, "1",
-                                                                  result.rhs_calls)
-                                                                WORLD("steps_accepted", COUNT, NULL, "1",
-                                                                      result.accepted)
-                                                                    WORLD("steps_rejected", COUNT, NULL, "1",
-                                                                          result.rejected) FINAL("X", "l", 0)
-                                                                        FINAL("Y", "l", 1) FINAL("Z", "l", 2)
-                                                                            FINAL("vX", "l gamma", 3) FINAL(
-                                                                                "vY", "l gamma",
-                                                                                4) FINAL("vZ", "l gamma",
-                                                                                         5) FINAL("nX", "1", 6)
-                                                                                FINAL("nY", "1",
-                                                                                      7) FINAL("nZ", "1", 8)
-                                                                                    FINAL("WX", "gamma",
-                                                                                          9) FINAL("WY",
-                                                                                                   "gamma", 10)
-                                                                                        FINAL("WZ", "gamma", 11)
-                                                                                            FLOATS("places",
-                                                                                                   INT, NULL,
-                                                                                                   places)
-                                                                                                SIDE("below", 0)
-                                                                                                    SIDE(
-                                                                                                        "above",
-                                                                                                        1)};
+    BEADS("outcome", NAME, FST_WORDS(FST_BEADS_OUTCOMES), "1", outcome)
+    BEADS("groups", INT, NULL, "1", group_count)
+    BEADS("largest_kind", NAME, FST_WORDS(FST_BEAD_GROUPS), "1", largest_kind)
+    BEADS("largest_beads", INT, NULL, "1", largest_count)
+    BEADS("mean_r", REAL, NULL, "l", mean_r)
+    BEADS("centre_rate", REAL, NULL, "gamma", centre_rate)
+    BEADS("axis_rate", REAL, NULL, "gamma", axis_rate)
+    BEADS("drive_power", REAL, NULL, "l^2 gamma^3", drive_power)
+    BEADS("plate_power", REAL, NULL, "l^2 gamma^3", plate_power)
+    BEADS("pair_power", REAL, NULL, "l^2 gamma^3", pair_power)
+    BEADS("impact_power", REAL, NULL, "l^2 gamma^3", impact_power)
+    BEADS("energy_residual", REAL, NULL, "l^2 gamma^2", energy_residual)
+    FST_BEAD_EVENT_LIST(COUNT)
+    BEADS("periods", REAL, NULL, "1", periods)
+    BEADS("method", NAME, FST_WORDS(FST_BEADS_METHODS), "1", method)
+    BEADS("rhs_calls", COUNT, NULL, "1", rhs_calls)
+    BEADS("steps_accepted", COUNT, NULL, "1", accepted)
+    BEADS("steps_rejected", COUNT, NULL, "1", rejected)
+    WORLD("regime", NAME, FST_WORDS(FST_REGIMES), "1", result.regime)
+    WORLD("frame", NAME, FST_WORDS(FST_FRAMES), "1", world.frame)
+    WORLD("omega", REAL, NULL, "gamma", result.omega)
+    WORLD("frequency_hz", REAL, NULL, "1", result.frequency_hz)
+    WORLD("mean_r", REAL, NULL, "l", result.mean_r)
+    WORLD("mean_height", REAL, NULL, "l", world.mean_height)
+    WORLD("mean_alpha_dot", REAL, NULL, "gamma", result.mean_alpha_dot)
+    WORLD("mean_load_weights", REAL, NULL, "1", result.mean_load_weights)
+    WORLD("mean_drive_power", REAL, NULL, "l^2 gamma^3", result.mean_drive_power)
+    WORLD("mean_friction_power", REAL, NULL, "l^2 gamma^3", result.mean_friction_power)
+    WORLD("mean_medium_power", REAL, NULL, "l^2 gamma^3", world.mean_medium_power)
+    WORLD("mean_velocity", REAL, NULL, "l gamma", world.mean_velocity)
+    WORLD("mean_velocity_error", REAL, NULL, "l gamma", world.mean_velocity_error)
+    WORLD("mean_impact_power", REAL, NULL, "l^2 gamma^3", result.mean_impact_power)
+    WORLD("energy_residual", REAL, NULL, "1", result.energy_residual)
+    WORLD("end_time", REAL, NULL, "1/gamma", result.end_time)
+    WORLD("periods", REAL, NULL, "1", result.periods)
+    WORLD("window_periods", REAL, NULL, "1", result.window_periods)
+    WORLD("rhs_calls", COUNT, NULL, "1", result.rhs_calls)
+    WORLD("steps_accepted", COUNT, NULL, "1", result.accepted)
+    WORLD("steps_rejected", COUNT, NULL, "1", result.rejected)
+    FINAL("X", "l", 0)
+    FINAL("Y", "l", 1)
+    FINAL("Z", "l", 2)
+    FINAL("vX", "l gamma", 3)
+    FINAL("vY", "l gamma", 4)
+    FINAL("vZ", "l gamma", 5)
+    FINAL("nX", "1", 6)
+    FINAL("nY", "1", 7)
+    FINAL("nZ", "1", 8)
+    FINAL("WX", "gamma", 9)
+    FINAL("WY", "gamma", 10)
+    FINAL("WZ", "gamma", 11)
+    FLOATS("places", INT, NULL, places)
+    SIDE("below", 0)
+    SIDE("above", 1)
+};
 /* clang-format on */
 
 const fst_bead_column *fst_bead_column_at(fst_row_kind kind, int index)
@@ -179,7 +165,7 @@ static fst_status plate_row(const fst_params *params, const fst_progress *progre
     fst_run_options options = fst_default_run_options();
     fst_world_row *world = &record->world;
     options.progress = progress;
-    *world = (fst_world_row){FST_FRAME_TURNING, NAN, NAN, {0}};
+    *world = (fst_world_row){FST_FRAME_TURNING, NAN, NAN, NAN, NAN, {0}};
     const fst_status status = fst_run(params, &options, &record->result, error);
     for (int k = 0; k < FST_STATE_SIZE; ++k)
         world->final_state[places[k]] = record->result.final_state[k];
@@ -195,7 +181,11 @@ static fst_status world_row(const fst_params *params, const fst_progress *progre
     options.progress = progress;
     const fst_status status = fst_world_run(params, &options, &result, error);
     record->result = result.run;
-    record->world = (fst_world_row){result.frame, result.mean_height, result.mean_medium_power, {0}};
+    record->world = (fst_world_row){.frame = result.frame,
+                                    .mean_height = result.mean_height,
+                                    .mean_medium_power = result.mean_medium_power,
+                                    .mean_velocity = result.mean_velocity,
+                                    .mean_velocity_error = result.mean_velocity_error};
     memcpy(record->world.final_state, result.final_state, sizeof result.final_state);
     return status;
 }

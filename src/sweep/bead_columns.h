@@ -16,7 +16,7 @@ typedef struct fst_beads_row {
 /* Of a world, beside the result of its run. */
 typedef struct fst_world_row {
     int frame;
-    double mean_height, mean_medium_power, final_state[FST_BEAD_NUMBERS];
+    double mean_height, mean_medium_power, mean_velocity, mean_velocity_error, final_state[FST_BEAD_NUMBERS];
 } fst_world_row;
 
 /* Of the places where a bead floats: the best one below the magnet and above it. */

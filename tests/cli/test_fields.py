@@ -28,12 +28,37 @@ class Fields(Case):
         x = run["final_lab_si"][0]  # rolling, it goes 2 pi f R t, but for the slip and the field's unevenness
         self.assertLess(abs(abs(x) / (2 * math.pi * 2 * 2.5e-3 * 0.6) - 1), 0.1)
 
-    def test_wave_drives_a_bead_backwards(self):
-        run = self.run_of(os.path.join(WORLDS, "wave.yaml"))
-        k_radius = 2 * math.pi / 60e-3 * 2.5e-3
-        wanted = -2.5e-3 * 2 * math.pi * 2 / (1 - k_radius)
-        self.assertLess(abs(run["final_lab_si"][0] / (20 * wanted) - 1), 2e-2)
+    def test_words_for_waves(self):
+        """Locked against the wave, at -eps w/(1 - k eps), or with it, at eps w/(1 + k eps); lost; and not settled."""
+        scene, turn, k_radius = os.path.join(WORLDS, "wave.yaml"), 2 * math.pi, 2 * math.pi / 60e-3 * 2.5e-3
+        run = self.run_of(scene)
+        speed = run["groups"]["length_unit_m"] / run["groups"]["time_unit_s"]
+        self.assertEqual(run["regime"], "backward")
         self.assertLess(abs(run["energy_residual"]), 1e-10)
+        self.assertAlmostEqual(run["mean_velocity"] * speed / (-2.5e-3 * turn * 2 / (1 - k_radius)), 1, delta=1e-12)
+        self.assertLess(run["mean_velocity_error"] * speed, 1e-12)
+        # weak fields from below and from above: each keeps the bead that begins in its lock
+        weak = sets(wave__amplitude="0.05 mT", wave__ratio=1, drive__frequency="8 Hz", run__duration="10 s")
+        for word, side in (("backward", 1), ("forward", -1)):
+            rate = -side * turn * 8 / (1 - side * k_radius)
+            run = self.run_of(scene, *weak, *sets(**{"start__velocity[0]": 2.5e-3 * rate, "start__angular_velocity[1]": rate}))
+            self.assertEqual(run["regime"], word)
+            self.assertAlmostEqual(run["mean_velocity"] * speed / (2.5e-3 * rate), 1, delta=3e-3)  # it swings about it
+            self.assertLess(run["mean_velocity_error"] * speed, 0.05 * 2.5e-3 * abs(rate))
+        # the lock holds up to Om0^2/C, here for a bead that the plate hardly lets slip
+        drag, torque = 40.0, run["groups"]["kappa"] * 0.05e-3 / run["groups"]["field_unit_t"]
+        lost = torque / run["groups"]["time_unit_s"]**2 * (1 - k_radius)**2 / drag / turn
+        for word, part in (("backward", 0.93), ("drifting", 1.3)):
+            frequency = part * lost
+            rate = -turn * frequency / (1 - k_radius)
+            run = self.run_of(scene, *sets(wave__amplitude="0.05 mT", drive__frequency=frequency, run__duration="12 s", friction__gamma=3000,
+                                           medium__drag_rate=drag, **{"start__velocity[0]": 2.5e-3 * rate, "start__angular_velocity[1]": rate,
+                                                                      "start__n[0]": math.cos(1.2), "start__n[1]": 0, "start__n[2]": -math.sin(1.2)}))
+            self.assertEqual(run["regime"], word, run["reason"])
+        run = self.run_of(scene, *sets(run__duration="0.1 s", run__discard=0))  # it has just been let go
+        self.assertEqual(run["regime"], "undecided")
+        self.assertIn("mean velocity along the wave goes from", run["reason"])
+        self.assertIsNone(self.run_of(os.path.join(WORLDS, "compass.yaml"), *sets(run__periods=2, run__discard=1))["mean_velocity"])
 
     def test_field_of_the_earth(self):
         """50 uT shift <r> of the counter-rotating bead by about 0.2 %."""
