@@ -11,7 +11,10 @@ static fst_status check_options(const arguments *given, const char *key, fst_err
     static const char *const others[] = {"ramp", "ramp-points", "ramp-wait", "ramp-disturbance"};
     for (size_t i = 0; i < sizeof others / sizeof *others; ++i)
         if (option_value(given, others[i]))
-            return fail(error, FST_BAD_INPUT, "", "--%s is for a bead on a flat plate in air, not with %s",
+            return fail(error, FST_BAD_INPUT, "",
+                        "--%s is for a bead on a flat plate in air, not with %s: festoon sweep --carry up or "
+                        "down --over "
+                        "drive.frequency=FROM:TO:COUNT follows a motion from drive to drive",
                         others[i], key);
     return FST_OK;
 }

@@ -7,6 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/error.h"
+
 /* ------------------------------------------------------------------ columns */
 
 #define OF(field) offsetof(fst_sweep_record, field)
@@ -46,6 +48,7 @@ static const fst_bead_column columns[] = {
     BEADS("rhs_calls", COUNT, NULL, "1", rhs_calls)
     BEADS("steps_accepted", COUNT, NULL, "1", accepted)
     BEADS("steps_rejected", COUNT, NULL, "1", rejected)
+    WORLD("carried", INT, NULL, "1", carried)
     WORLD("regime", NAME, FST_WORDS(FST_REGIMES), "1", result.regime)
     WORLD("frame", NAME, FST_WORDS(FST_FRAMES), "1", world.frame)
     WORLD("omega", REAL, NULL, "gamma", result.omega)
@@ -158,14 +161,18 @@ static fst_status beads_row(const fst_params *params, const fst_progress *progre
 }
 
 /* A point without a world is told by fst_run(), as `festoon run` tells it: its state has no height. */
-static fst_status plate_row(const fst_params *params, const fst_progress *progress, fst_sweep_record *record,
-                            fst_error *error)
+static fst_status plate_row(const fst_params *params, const double *start, const fst_progress *progress,
+                            fst_sweep_record *record, fst_error *error)
 {
+    double state[FST_STATE_SIZE];
     static const int places[FST_STATE_SIZE] = {0, 1, 3, 4, 6, 7, 8, 9, 10, 11};
     fst_run_options options = fst_default_run_options();
     fst_world_row *world = &record->world;
     options.progress = progress;
     *world = (fst_world_row){FST_FRAME_TURNING, NAN, NAN, NAN, NAN, {0}};
+    for (int k = 0; k < FST_STATE_SIZE && start; ++k)
+        state[k] = start[places[k]];
+    options.start = start ? state : NULL;
     const fst_status status = fst_run(params, &options, &record->result, error);
     for (int k = 0; k < FST_STATE_SIZE; ++k)
         world->final_state[places[k]] = record->result.final_state[k];
@@ -173,12 +180,30 @@ static fst_status plate_row(const fst_params *params, const fst_progress *progre
     return status;
 }
 
-static fst_status world_row(const fst_params *params, const fst_progress *progress, fst_sweep_record *record,
-                            fst_error *error)
+/* The length of a wave that is all there is over a flat plate: to go on by it changes nothing.  Else 0. */
+static double wave_length_alone(const fst_params *p)
 {
+    const int alone = p->drive_waveform == FST_WAVEFORM_WAVE && p->plate_shape == FST_PLATE_FLAT &&
+                      p->coil_count == 0 && p->magnet_part_count == 0;
+    return alone ? p->wave_length / p->magnet_half_length : 0.0;
+}
+
+static fst_status world_row(const fst_params *params, const double *start, const fst_progress *progress,
+                            fst_sweep_record *record, fst_error *error)
+{
+    double state[FST_BEAD_NUMBERS];
     fst_world_result result;
     fst_beads_options options = fst_default_beads_options();
     options.progress = progress;
+    if (start) {
+        const double length = wave_length_alone(params);
+        options.state = memcpy(state, start, sizeof state);
+        state[0] = length > 0 ? remainder(state[0], length) : state[0];
+        if (isnan(state[2])) { /* of a point without a world */
+            state[2] = params->start_position[2] / params->magnet_half_length;
+            state[5] = 0.0;
+        }
+    }
     const fst_status status = fst_world_run(params, &options, &result, error);
     record->result = result.run;
     record->world = (fst_world_row){.frame = result.frame,
@@ -208,14 +233,65 @@ static fst_status levitation_row(const fst_params *params, const fst_progress *p
     return status;
 }
 
-fst_status fst_own_row(fst_row_kind kind, const fst_params *params, const fst_progress *progress,
-                       fst_sweep_record *record, fst_error *error)
+int fst_can_go_on(const fst_sweep_record *record)
+{
+    const fst_regime regime = record->result.regime;
+    return record->status == FST_OK && regime != FST_REGIME_EJECTED && regime != FST_REGIME_LIFTED &&
+           regime != FST_REGIME_TOUCHED && regime != FST_REGIME_LOST;
+}
+
+static int is_whole(double turns)
+{
+    return fabs(turns - round(turns)) <= 1e-9 * fabs(turns);
+}
+
+fst_status fst_check_carried_worlds(const fst_grid *grid, fst_error *error)
+{
+    static const char *const refused[][2] = {
+        {"bead.radius", "where the bead touches the plate"}, {"model.eps", "where the bead touches the plate"},
+        {"plate.bowl_radius", "where the bead touches it"},  {"plate.shape", "where the bead touches it"},
+        {"wave.length", "the phase at every place"},         {"drive.waveform", "what moves the bead"}};
+    static const char WHERE[] = "fst_sweep_options.carry";
+    fst_params p;
+    for (size_t i = 0; i < sizeof refused / sizeof *refused; ++i)
+        if (strcmp(fst_grid_key(grid, 0), refused[i][0]) == 0)
+            return fst_fail(error, FST_BAD_INPUT, WHERE, "%s changes %s, so a state cannot be carried along it",
+                            refused[i][0], refused[i][1]);
+    for (int64_t point = 0; point < fst_grid_points(grid); ++point) {
+        if (fst_grid_params(grid, point, &p, NULL) != FST_OK || !fst_key_of_world(&p))
+            continue; /* its row will say what is wrong */
+        const double periods = fst_run_periods(&p), hertz = p.drive_frequency;
+        const int steady = p.drive_waveform == FST_WAVEFORM_STEADY;
+        if (!steady && p.drive_waveform != FST_WAVEFORM_OSCILLATING && p.drive_waveform != FST_WAVEFORM_WAVE)
+            return fst_fail(
+                error, FST_BAD_INPUT, WHERE,
+                "this drive begins anew with every run, so that no run goes on from another: choose "
+                "drive.waveform steady, oscillating or wave");
+        if ((!steady || fst_frame_of_world(&p) == FST_FRAME_LABORATORY) && !is_whole(periods))
+            return fst_fail(
+                error, FST_BAD_INPUT, WHERE,
+                "after %.9g periods, at point %lld, the drive is not where a run begins: give run.periods, "
+                "a whole number, in place of run.duration",
+                periods, (long long)point);
+        for (int i = 0; i < p.coil_count; ++i)
+            if (p.coils[i].ac != 0 && !is_whole(p.coils[i].frequency * periods / hertz))
+                return fst_fail(
+                    error, FST_BAD_INPUT, WHERE,
+                    "after %.9g periods of the drive, at point %lld, the current of coils[%d] is not where a "
+                    "run begins: choose its frequency and run.periods so that it is",
+                    periods, (long long)point, i);
+    }
+    return FST_OK;
+}
+
+fst_status fst_own_row(fst_row_kind kind, const fst_params *params, const double *start,
+                       const fst_progress *progress, fst_sweep_record *record, fst_error *error)
 {
     fst_error why = {FST_OK, "", ""};
     record->status = kind == FST_ROWS_OF_BEADS        ? beads_row(params, progress, record, &why)
                      : kind == FST_ROWS_OF_LEVITATION ? levitation_row(params, progress, record, &why)
-                     : fst_key_of_world(params)       ? world_row(params, progress, record, &why)
-                                                      : plate_row(params, progress, record, &why);
+                     : fst_key_of_world(params)       ? world_row(params, start, progress, record, &why)
+                                                      : plate_row(params, start, progress, record, &why);
     if (record->status != FST_OK)
         (void)snprintf(record->result.reason, sizeof record->result.reason, "%.255s", why.sentence);
     if (record->status != FST_INTERRUPTED)

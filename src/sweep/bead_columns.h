@@ -42,9 +42,17 @@ typedef struct fst_sweep_record {
     };
 } fst_sweep_record;
 
-/* Compute the row of a point: status, result.reason and what its kind has.  FST_INTERRUPTED: progress said so. */
-fst_status fst_own_row(fst_row_kind kind, const fst_params *params, const fst_progress *progress,
-                       fst_sweep_record *record, fst_error *error);
+/* Compute the row of a point: status, result.reason and what its kind has; of a world from the state `start` unless it is
+ * NULL.  FST_INTERRUPTED: progress said so. */
+fst_status fst_own_row(fst_row_kind kind, const fst_params *params, const double *start,
+                       const fst_progress *progress, fst_sweep_record *record, fst_error *error);
+
+/* Whether a run of a world may start from the end of this one. */
+int fst_can_go_on(const fst_sweep_record *record);
+
+/* Whether runs of worlds can start where others ended: all that changes with time must then be as at the start, and the
+ * first axis must not move the plate or the wave under the bead. */
+fst_status fst_check_carried_worlds(const fst_grid *grid, fst_error *error);
 
 /* A name of a list by its place, an int; an int; an int64_t; a double. */
 typedef enum { FST_BEAD_NAME, FST_BEAD_INT, FST_BEAD_COUNT, FST_BEAD_REAL } fst_bead_column_kind;

@@ -88,8 +88,14 @@ char *fst_sweep_select_sql(void)
 char *fst_sweep_state_sql(const fst_grid *grid)
 {
     fst_printed printed;
-    if (has_own(grid)) /* whose states are not carried */
+    const fst_row_kind kind = fst_grid_row_kind(grid);
+    if (kind == FST_ROWS_OF_BEADS || kind == FST_ROWS_OF_LEVITATION) /* whose states are not carried */
         return strdup("SELECT ?1 < 0 AND ?2 < 0");
+    if (kind == FST_ROWS_OF_WORLDS)
+        return strdup(
+            "SELECT status = 'done' AND ?2 > 0 AND regime NOT IN ('ejected', 'lifted', 'touched', 'lost'), "
+            "final_X, final_Y, final_Z, final_vX, final_vY, final_vZ, final_nX, final_nY, final_nZ, "
+            "final_WX, final_WY, final_WZ FROM rows WHERE point = ?1");
     FILE *out = fst_print_begin(&printed);
     if (!out)
         return NULL;

@@ -433,7 +433,7 @@ fst_status fst_journal_missing(fst_journal *journal, int64_t *next, int64_t *poi
 }
 
 fst_status fst_journal_end_state(fst_journal *journal, int64_t point, int *there, int *usable,
-                                 double state[FST_STATE_SIZE], fst_error *error)
+                                 double state[FST_BEAD_NUMBERS], fst_error *error)
 {
     fst_params params = fst_default_params();
     (void)fst_grid_params(journal->grid, point, &params, NULL); /* where this fails, the row did */
@@ -444,8 +444,8 @@ fst_status fst_journal_end_state(fst_journal *journal, int64_t point, int *there
     *usable = 0;
     if (*there) {
         *usable = sqlite3_column_int(journal->state, 0);
-        for (int i = 0; i < FST_STATE_SIZE; ++i)
-            state[i] = sqlite3_column_double(journal->state, 1 + i);
+        for (int i = 0; i + 1 < sqlite3_column_count(journal->state); ++i)
+            state[i] = fst_sweep_number(journal->state, 1 + i);
     }
     const fst_status status = code == SQLITE_ROW || code == SQLITE_DONE
                                   ? FST_OK

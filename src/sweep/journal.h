@@ -69,7 +69,7 @@ fst_status fst_journal_missing(fst_journal *journal, int64_t *next, int64_t *poi
 /* The end state of a point, and whether a run may start from it (it went on to its end, or settled). *there is
  * 0 where the point has no row. */
 fst_status fst_journal_end_state(fst_journal *journal, int64_t point, int *there, int *usable,
-                                 double state[FST_STATE_SIZE], fst_error *error);
+                                 double state[FST_BEAD_NUMBERS], fst_error *error);
 
 /* Commit and close.  The log is gone then, and the database is one file again. */
 fst_status fst_journal_close(fst_journal *journal, fst_error *error);

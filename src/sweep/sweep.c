@@ -111,7 +111,7 @@ static fst_status resume_chain(sweep *s, int64_t chain, fst_sweep_task *t, int *
     t->has_start = 0;
     for (int64_t place = 0; place < count; ++place) {
         t->point = fst_chain_point(&s->identity, chain, place);
-        double end[FST_STATE_SIZE];
+        double end[FST_BEAD_NUMBERS];
         const fst_status status = fst_journal_end_state(s->journal, t->point, &there, &usable, end, error);
         if (status != FST_OK)
             return status;
@@ -424,11 +424,13 @@ static fst_status check_options(const fst_sweep_options *o, const fst_grid *grid
     if (!(o->checkpoint_seconds > 0))
         return fst_fail(error, FST_BAD_INPUT, "fst_sweep_options.checkpoint_seconds", "%g s must be positive",
                         o->checkpoint_seconds);
-    if (fst_grid_row_kind(grid) != FST_ROWS_OF_RUNS && (o->carry != FST_CARRY_NO || o->refine != 0))
+    const fst_row_kind kind = fst_grid_row_kind(grid);
+    if ((kind == FST_ROWS_OF_BEADS || kind == FST_ROWS_OF_LEVITATION) &&
+        (o->carry != FST_CARRY_NO || o->refine != 0))
         return fst_fail(
             error, FST_BAD_INPUT, o->refine ? "fst_sweep_options.refine" : "fst_sweep_options.carry",
-            "the points of several beads, of worlds and of levitation are all computed, each from its own "
-            "start: leave this out");
+            "the points of several beads and of levitation are all computed, each from its own start: leave "
+            "this out");
     if (fst_grid_base(grid)->bead_count > FST_BEADS_MOST)
         return fst_fail(error, FST_BAD_INPUT, "beads", "a sweep takes at most %d beads, and the scene lists %d",
                         FST_BEADS_MOST, fst_grid_base(grid)->bead_count);
@@ -437,7 +439,8 @@ static fst_status check_options(const fst_sweep_options *o, const fst_grid *grid
         (strcmp(key, "friction.gamma") == 0 || strcmp(key, "magnet.half_length") == 0))
         return fst_fail(error, FST_BAD_INPUT, "fst_sweep_options.carry",
                         "%s changes the units, so a state cannot be carried along it", key);
-    return FST_OK;
+    return kind == FST_ROWS_OF_WORLDS && o->carry != FST_CARRY_NO ? fst_check_carried_worlds(grid, error)
+                                                                  : FST_OK;
 }
 
 /* The part of rank 0, or of the only process: it has the journal. */

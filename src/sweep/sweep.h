@@ -8,8 +8,8 @@
  * does the rest of the chain. */
 typedef struct fst_sweep_task {
     int64_t point;
-    int has_start; /* `start` is the end state of the point before */
-    double start[FST_STATE_SIZE];
+    int has_start;                  /* `start` is the end state of the point before */
+    double start[FST_BEAD_NUMBERS]; /* ten of them, or of a world all */
 } fst_sweep_task;
 
 /* Chains run along the first axis, in the direction of carrying.  Their length and number, the point at a place

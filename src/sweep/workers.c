@@ -39,26 +39,48 @@ struct fst_workers {
 
 /* ------------------------------------------------------------------ the threads' side */
 
-static int next_task(void *user, fst_row_job *row)
+static int take_task(fst_workers *w, fst_sweep_task *task)
 {
-    fst_workers *w = user;
     pthread_mutex_lock(&w->lock);
     const int over = w->stopping || (w->no_more_tasks && w->task_count == 0);
     const int more = over ? 0 : w->task_count > 0 ? 1 : FST_JOBS_LATER;
     if (more > 0) {
-        const fst_sweep_task *t = &w->tasks[w->first_task];
-        row->point = t->point;
-        row->has_start = t->has_start;
-        memcpy(row->start, t->start, sizeof row->start);
+        *task = w->tasks[w->first_task];
         w->first_task = (w->first_task + 1) % FST_WORKERS_TASKS;
         w->task_count -= 1;
         if (w->task_count == w->plan.depth / 4)
             pthread_cond_signal(&w->row_came);
     }
     pthread_mutex_unlock(&w->lock);
-    if (more > 0) /* cannot fail: the values were checked when the grid was made */
-        (void)fst_grid_params(w->identity->grid, row->point, &row->params, NULL);
     return more;
+}
+
+static int next_task(void *user, fst_row_job *row)
+{
+    fst_workers *w = user;
+    fst_sweep_task task;
+    const int more = take_task(w, &task);
+    if (more > 0) {
+        row->point = task.point;
+        row->has_start = task.has_start;
+        memcpy(row->start, task.start, sizeof row->start);
+        /* cannot fail: the values were checked when the grid was made */
+        (void)fst_grid_params(w->identity->grid, row->point, &row->params, NULL);
+    }
+    return more;
+}
+
+/* With carrying: the point behind a finished one of its chain; 0: that was the last. */
+static int follow_chain(const fst_workers *w, int64_t *point)
+{
+    int64_t chain;
+    if (w->identity->carry == FST_CARRY_NO)
+        return 0;
+    const int64_t place = fst_chain_place(w->identity, *point, &chain) + 1;
+    if (place == fst_chain_length(w->identity))
+        return 0;
+    *point = fst_chain_point(w->identity, chain, place);
+    return 1;
 }
 
 /* The work ends with an error, the first one; the lock is held. */
@@ -114,13 +136,8 @@ static int row_done(void *user, fst_row_job *row, fst_status status, const fst_r
     if (status != FST_OK)
         (void)snprintf(record.result.reason, sizeof record.result.reason, "%.255s", error->sentence);
     hand_over(w, &record);
-    if (w->identity->carry == FST_CARRY_NO)
+    if (!follow_chain(w, &row->point))
         return 0;
-    int64_t chain;
-    const int64_t place = fst_chain_place(w->identity, row->point, &chain) + 1;
-    if (place == fst_chain_length(w->identity))
-        return 0;
-    row->point = fst_chain_point(w->identity, chain, place);
     row->has_start = status == FST_OK && result->regime != FST_REGIME_EJECTED &&
                      result->regime != FST_REGIME_LIFTED &&
                      (result->periods >= fst_run_periods(&row->params) || !isnan(result->settled_at));
@@ -169,15 +186,21 @@ static void *find_image(void *user, const fst_row_job *job, size_t *size)
 /* Tasks whose rows are no runs of a bead on the plate, until there are none. */
 static fst_status own_rows(fst_workers *w, fst_row_kind kind, const fst_progress *progress, fst_error *error)
 {
-    fst_row_job job;
+    fst_params params;
+    fst_sweep_task task;
     fst_status status = FST_OK;
-    while (status == FST_OK && next_task(w, &job) > 0) {
+    for (int goes_on = 0; status == FST_OK && (goes_on || take_task(w, &task) > 0);) {
         fst_sweep_record record;
         memset(&record, 0, sizeof record);
-        record.point = job.point;
-        status = fst_own_row(kind, &job.params, progress, &record, error);
+        record.point = task.point;
+        record.carried = task.has_start;
+        (void)fst_grid_params(w->identity->grid, task.point, &params, NULL);
+        status = fst_own_row(kind, &params, task.has_start ? task.start : NULL, progress, &record, error);
         if (status == FST_OK)
             hand_over(w, &record);
+        goes_on = follow_chain(w, &task.point);
+        task.has_start = fst_can_go_on(&record);
+        memcpy(task.start, record.world.final_state, sizeof task.start);
     }
     return status;
 }

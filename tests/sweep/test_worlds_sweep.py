@@ -2,12 +2,15 @@
 
 tests: sweep/bead_columns.c"""
 import json
+import math
 import os
+import sqlite3
 import unittest
 
 from sweep_tools import Case
 
 SCENES = os.path.join(os.environ["SOURCE_DIR"], "examples", "worlds")
+WAVE, WEAK = os.path.join(SCENES, "wave.yaml"), ("--set", "wave.amplitude=0.05 mT", "--set", "plate.radius=500")
 SHORT = ("--set", "run.periods=4", "--set", "run.discard=2")
 # scene, what is set, what is varied; a tilted plate is no file
 POINTS = (("levitation.yaml", ("--set", "run.duration=0.05"), "medium.drag_rate=5,10"),
@@ -36,8 +39,9 @@ class Sweeps(Case):
                     if "frame" not in run:  # no tilt: a bead on the plate, whose state has no height
                         state = run["final_state"]
                         run.update(frame="turning", mean_height=None, mean_medium_power=None,
+                                   mean_velocity=None, mean_velocity_error=None,
                                    final_state=[*state[:2], None, *state[2:4], None, *state[4:]])
-                    columns = set(row) - {"point", key, "status"}
+                    columns = set(row) - {"point", key, "status", "carried"}
                     self.assertLess(20, len(columns))
                     for column in columns:
                         self.assertEqual(row[column], run[column], column)
@@ -92,11 +96,74 @@ class Sweeps(Case):
         self.assertIn("36 points, 0 of them new", self.good(*words, "--levitation", "-o", name))
         self.assertIn("places where a bead floats, have no mean_r", self.refused("export", name, "--csv", "--key", "mean_r"))
 
+    def test_hysteresis_of_the_lock(self):
+        """Carried up, the lock of a wave holds to Om0^2/C; carried down, the bead is caught again at (4/pi) Om0."""
+        drag, k_radius = 12.0, 2 * math.pi / 60e-3 * 2.5e-3
+        words = (WAVE, *WEAK, "--set", f"medium.drag_rate={drag}", "--set", "friction.gamma=3000", "--set", "run.duration=10",
+                 "--set", "run.discard=20")
+        groups = json.loads(self.good("check", *words, "--set", "drive.frequency=8", "--json"))["groups"]
+        torque = groups["kappa"] * 0.05e-3 / groups["field_unit_t"] / groups["time_unit_s"]**2
+        om0, damping = math.sqrt(torque / 1.4) * (1 - k_radius), drag / 1.4
+        caught, lost = 4 / math.pi * om0 / (2 * math.pi), om0**2 / damping / (2 * math.pi)
+        over = [round(f, 1) for f in (0.95 * caught, 1.05 * caught, 1.4 * caught, 0.9 * lost, 0.97 * lost, 1.03 * lost)]
+        told = {}
+        for way in ("up", "down"):
+            name = self.path(way + ".db")
+            self.good("sweep", *words, "--over", "drive.frequency=" + ",".join(map(str, over)), "--carry", way, "-o", name)
+            told[way] = [row["regime"] for row in self.rows(name)]
+        self.assertEqual(told["up"], ["backward"] * 5 + ["drifting"])
+        self.assertEqual(told["down"][0], "backward")
+        self.assertNotIn("backward", told["down"][1:])
+
+    def test_carried_is_a_sequence_of_runs(self):
+        """Each from where the last one ended, also where the command was cut; of a wave, but for whole wave lengths."""
+        at = ("position", "velocity", "n", "angular_velocity")
+        for scene, sets, key, values in ((WAVE, (*WEAK, "--set", "run.duration=4"), "drive.frequency", (3, 4, 5.5)),
+                                         (os.path.join(SCENES, "compass.yaml"), SHORT, "field.uniform[0]", (1e-5, 2e-5, 4e-5)),
+                                         (os.path.join(SCENES, "bowl.yaml"), SHORT, "drive.frequency", (30, 31))):
+            with self.subTest(scene):
+                name, start = self.path(f"{len(values)}{key}.db"), ()
+                words = ("sweep", scene, *sets, "--over", f"{key}=" + ",".join(map(str, values)), "--carry", "up", "-o", name)
+                self.good(*words)
+                whole = self.rows(name)
+                self.assertEqual([row["carried"] for row in whole], [0] + [1] * (len(values) - 1))
+                with sqlite3.connect(name) as database:
+                    database.execute("DELETE FROM rows WHERE point >= 1")
+                database.close()
+                self.good(*words)
+                self.assertEqual(self.rows(name), whole)
+                for row, value in zip(whole, values):
+                    run = json.loads(self.good("run", scene, *sets, "--set", f"{key}={value}", *start, "--json"))
+                    self.assertEqual(run["regime"], row["regime"])
+                    for one, other in zip((row["mean_velocity"] or 0, *row["final_state"][3:]), (run["mean_velocity"] or 0, *run["final_state"][3:])):
+                        self.assertAlmostEqual(one, other, delta=1e-7)
+                    start = [word for k, what in enumerate(at) for i in range(3)
+                             for word in ("--set", f"start.{what}[{i}]={run['final_lab_si'][3 * k + i]!r}")]
+
+    def test_refined(self):
+        """A map of words that is refined has the words of the whole one."""
+        words = ("sweep", WAVE, *WEAK, "--set", "run.duration=2", "--over", "drive.frequency=1Hz:17Hz:9", "--over", "medium.drag_rate=10:30:5")
+        self.good(*words, "-o", self.path("all.db"))
+        self.good(*words, "--refine", "1", "-o", self.path("some.db"))
+        whole = {row["point"]: row for row in self.rows(self.path("all.db"))}
+        some = self.rows(self.path("some.db"))
+        self.assertLess(len(some), len(whole))
+        for row in some:
+            self.assertEqual(row, whole[row["point"]])
+        self.good("plot", self.path("some.db"), "-o", self.path("some.svg"))
+
     def test_refused(self):
         scene, name = os.path.join(SCENES, "bowl.yaml"), self.path("r.db")
-        for words, said in ((("--carry", "up"), "leave this out"), (("--refine", "1"), "leave this out"),
-                            (("--levitation",), "plate.shape none")):
-            self.assertIn(said, self.refused("sweep", scene, "--over", "drive.frequency=10Hz:20Hz:5", *words, "-o", name))
+        self.assertIn("plate.shape none", self.refused("sweep", scene, "--over", "drive.frequency=10Hz:20Hz:5", "--levitation", "-o", name))
+        pair = os.path.join(SCENES, os.pardir, "beads", "opposite.yaml")
+        for words, said in (((pair, "--over", "drive.frequency=10,20"), "leave this out"),
+                            ((scene, "--over", "plate.bowl_radius=1,2"), "where the bead touches it"),
+                            ((WAVE, "--over", "wave.length=0.06,0.07"), "phase at every place"),
+                            ((WAVE, "--over", "drive.frequency=2,2.03"), "after 40.6 periods, at point 1, the drive"),
+                            (("--set", "drive.waveform=chirp", "--set", "drive.chirp=1", "--over", "drive.frequency=2,3"), "choose drive.waveform"),
+                            ((os.path.join(SCENES, "coils.yaml"), "--set", "coils[0].frequency=2.1", "--over", "coils[0].ac=1,2"), "current of coils[0]")):
+            with self.subTest(said):
+                self.assertIn(said, self.refused("sweep", *words, "--carry", "up", "-o", name))
         self.assertIn("no effect", self.refused("sweep", "--over", "plate.bowl_radius=1,2", "-o", name))
         failed = self.path("f.db")  # a point that cannot be has a row that says why
         self.good("sweep", scene, *SHORT, "--over", "plate.bowl_radius=2 mm,0.5 m", "-o", failed)
