@@ -368,6 +368,47 @@ FST_API fst_status fst_figure_sweep(const char *path, const char *const *keys, i
  * FST_IO: reading it failed. */
 FST_API fst_status fst_is_sweep(const char *path, int *is_sweep, fst_error *error);
 
+/* ------------------------------------------------------------------ the critical speed */
+
+/* Neighbouring runs with one outcome, from the first to the last. */
+typedef struct fst_critical_stretch {
+    double from, to;
+    fst_regime regime;
+    int runs;
+} fst_critical_stretch;
+
+/* The critical speed: the lowest drive from which on all runs, each from the scene's start, circle against the magnet, for
+ * at least another tenth of the drive.  Values are those of `key`, in SI. */
+typedef struct fst_critical {
+    char key[64];
+    int found; /* 0: no run does so in this range, or the lowest one does so already; then `value` is NAN */
+    double value,
+        error;   /* half of what the runs on either side leave open, or the error of the special point */
+    int special; /* the fst_special_type of the branch's point that it is; -1: of none, it is enclosed by runs */
+    fst_regime below, above; /* the outcomes on either side */
+    double parting,
+        parting_error; /* up to here the bead goes with the magnet in all runs; NAN: in none, or in all */
+    fst_critical_stretch *stretches; /* of all runs, in order */
+    size_t stretch_count;
+    int runs;
+} fst_critical;
+
+typedef struct fst_critical_options {
+    const char
+        *over; /* "drive.frequency=2Hz:30Hz:113", an axis of fst_grid_new() that is a range of the drive */
+    double tolerance; /* relative width of a border; 1e-4 */
+    const fst_progress *progress;
+} fst_critical_options;
+FST_API fst_critical_options fst_default_critical_options(void);
+
+/* Find it by runs over the range, then by more about the border, and by the branch of counter-rotating orbits where the
+ * friction is smooth.  FST_BAD_INPUT: no range of the drive, or a scene of several beads or a world.  Free the result with
+ * fst_critical_free(), also after a failure. */
+FST_API fst_status fst_critical_find(const fst_params *params, const fst_critical_options *options,
+                                     fst_critical *critical, fst_error *error);
+FST_API void fst_critical_free(fst_critical *critical);
+FST_API char *fst_critical_json(const fst_params *params, const fst_critical *critical);
+
 /* ------------------------------------------------------------------ films */
 
 typedef struct fst_film_options {

@@ -32,6 +32,7 @@ from .beads_runs import BeadsRun, WorldRun
 from .beads_trajectories import BeadsTrajectory
 from .bead import Bead, Groups, MaterialWarning
 from .branches import Branch
+from .critical import Critical
 from .files import export, paper, read, schema
 from .films import track
 from .flows import Flow
@@ -69,6 +70,7 @@ __all__ = [
     "BeadsRun",
     "BeadsTrajectory",
     "Branch",
+    "Critical",
     "FestoonError",
     "Fit",
     "Flow",

@@ -86,6 +86,7 @@ CALLS = {
     "fst_param_at()": "festoon.schema()",
     "fst_orbit_find()": "Bead.orbit()",
     "fst_lyapunov_find()": "Bead.lyapunov()",
+    "fst_critical_find": "Bead.critical()",
     "fst_locked_find()": "Bead.locked()",
     "fst_sweep_export()": "festoon.export()",
     "fst_sweep()": "festoon.sweep()",

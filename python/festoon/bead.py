@@ -16,6 +16,7 @@ from ._tables import PARAMETERS, SHORT, Parameters
 
 if TYPE_CHECKING:
     from .branches import Branch
+    from .critical import Critical
     from .flows import Flow
     from .lab import Lab
     from .orbits import LockedStates, Lyapunov, Orbit
@@ -763,6 +764,36 @@ class Bead(Parameters):
         from . import orbits
 
         return orbits.lyapunov(self._asked(), progress)
+
+    def critical(
+        self, *, over: str = "drive.frequency=2Hz:30Hz:113", tolerance: float = 1e-4, progress: Progress = None
+    ) -> "Critical":
+        """The critical speed, from which on the bead circles against the magnet: a `Critical`.
+
+        Parameters
+        ----------
+        over
+            The speeds of the first runs, each from the bead's start: "drive.frequency=LO:HI:COUNT", or drive.omega.
+        tolerance
+            The width to which a border is enclosed by more runs, over the speed.
+        progress
+            True: a bar; or a function of (fraction, what).
+
+        Returns
+        -------
+        Critical
+            The speed in Hz (or in gamma) with its error, the outcomes on either side, and those of all runs.
+
+        Raises
+        ------
+        BadInput
+            Where an argument is wrong; the sentence says what was expected.
+        Interrupted
+            After Ctrl-C.
+        """
+        from . import critical
+
+        return critical.critical(self._asked(), over, tolerance, progress)
 
     def field(self, x: Any, y: Any, *, height: Any = None, units: str = "scaled") -> Tuple[Any, Any]:
         """The magnet's field and its gradient in the magnet's frame: (B, G), G[..., i, j] = dB_i/dx_j.

@@ -261,5 +261,5 @@ def _of_one(name: str) -> Callable[..., Any]:
     return refused
 
 
-for _name in ("sweep", "lyapunov", "flow", "start_state", "rhs", "jacobian", "observe", "movie", "lab"):
+for _name in ("sweep", "lyapunov", "critical", "flow", "start_state", "rhs", "jacobian", "observe", "movie", "lab"):
     setattr(Beads, _name, _of_one(_name))

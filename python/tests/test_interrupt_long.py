@@ -64,6 +64,7 @@ CALLS = {
         "flow = bead.flow(progress=tell); flow.advance(t=1e9)",
         "assert 0 < flow.t < 1e9 and flow.stop == ''",
     ),
+    "critical": ("bead.critical(over='drive.omega=0.1:0.5:1000', progress=tell)", "assert partial is None"),
     "lyapunov": ("bead.lyapunov(progress=tell)", "assert partial is None"),
 }
 

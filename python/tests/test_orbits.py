@@ -57,6 +57,17 @@ def test_lyapunov():
     assert spectrum.exponents.sum() == pytest.approx(spectrum.divergence, abs=1e-3)
 
 
+def test_critical():
+    found = fs.Bead().critical(over="drive.frequency=8Hz:12Hz:5", tolerance=1e-2)
+    assert found.value == pytest.approx(8.89731631832, abs=1e-8) and found.special == "origin-crossing"
+    assert [row.regime for row in found.stretches] == [found.below, found.above] == ["librating", "counter-rotating"]
+    again = pickle.loads(pickle.dumps(found))
+    assert again.to_dict() == found.to_dict() and again == found
+    assert fs.Bead().critical(over="drive.frequency=4Hz:6Hz:3").value is None
+    with pytest.raises(fs.BadInput, match="a critical speed is one of"):
+        fs.Bead().critical(over="magnet.depth=1cm:2cm:3")
+
+
 def test_branch_of_levitation(tmp_path):
     bead = fs.Bead(SCENES / "levitation.yaml")
     branch = bead.branch(frequency=(155, 170), kind="levitating")

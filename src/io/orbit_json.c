@@ -296,6 +296,33 @@ char *fst_lyapunov_json(const fst_params *params, const fst_lyapunov *l)
     return fst_json_end(&json, JSON_INDENT(INDENT));
 }
 
+char *fst_critical_json(const fst_params *params, const fst_critical *c)
+{
+    fst_json json = fst_json_begin('{');
+    fst_json_text(&json, "key", c->key);
+    fst_json_flag(&json, "found", c->found);
+    fst_json_real(&json, "value", c->value);
+    fst_json_real(&json, "error", c->error);
+    fst_json_text(&json, "special", c->special >= 0 ? fst_special_name((fst_special_type)c->special) : NULL);
+    fst_json_text(&json, "below", c->found ? fst_regime_name(c->below) : NULL);
+    fst_json_text(&json, "above", c->found ? fst_regime_name(c->above) : NULL);
+    fst_json_real(&json, "parting", c->parting);
+    fst_json_real(&json, "parting_error", c->parting_error);
+    fst_json_integer(&json, "runs", c->runs);
+    fst_json_open(&json, "stretches", '[');
+    for (size_t i = 0; i < c->stretch_count; ++i) {
+        fst_json_open(&json, NULL, '{');
+        fst_json_real(&json, "from", c->stretches[i].from);
+        fst_json_real(&json, "to", c->stretches[i].to);
+        fst_json_text(&json, "regime", fst_regime_name(c->stretches[i].regime));
+        fst_json_integer(&json, "runs", c->stretches[i].runs);
+        fst_json_close(&json);
+    }
+    fst_json_close(&json);
+    fst_json_scene(&json, params);
+    return fst_json_end(&json, JSON_INDENT(INDENT));
+}
+
 /* ---------------------------------------------------------------- simulated points */
 
 /* The parameter `key` in the document of a run: the drive from its results, any other from its scene. */

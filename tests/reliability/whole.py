@@ -83,6 +83,7 @@ def of_scenes():
         "field of coils": Command(["field", "../given/worlds/coils.yaml", "--at", "0,0", "--time", "125ms", "--json"]),
         "lyapunov": Command(["lyapunov", *SHORT]),
         "lyapunov --json": Command(["lyapunov", *SHORT, "--json"]),
+        "critical": Command(["critical", "--over", "drive.frequency=8.5Hz:10Hz:4", "--tolerance", "0.05"], slow=True),
         "paper --statements": Command(["paper", "--statements"], program="festoon-paper"),
     }
 

@@ -1,0 +1,112 @@
+/* critical.c - festoon critical: from which speed on does the bead circle against the magnet? */
+#include <math.h>
+#include <string.h>
+
+#include "cli/command.h"
+#include "cli/terminal.h"
+
+static const option options[] = {
+    SCENE_OPTIONS,
+    {"over", '\0', "KEY=LO:HI:COUNT", "the speeds of the first runs (drive.frequency=2Hz:30Hz:113)"},
+    {"tolerance", '\0', "T", "the width to which a border is enclosed, over the speed (1e-4)"},
+    JSON_OPTION,
+    {NULL, '\0', NULL, NULL},
+};
+
+/* What a special point of the branch is, in words. */
+#define DOC(NAME, name, doc, ...) doc,
+static const char *const special_docs[] = {FST_SPECIALS(DOC)};
+#undef DOC
+
+/* "8.897316318 +- 9e-09 Hz": two digits of the error. */
+static void print_with_error(FILE *out, double value, double error, const char *unit)
+{
+    const int decimals = error > 0 ? (int)fmax(0, ceil(-log10(error)) + 1) : 0;
+    (void)fprintf(out, "%.*f +- %.2g%s", decimals, value, error, unit);
+}
+
+static const char *why_none(const fst_critical *c)
+{
+    size_t i = 0;
+    while (i < c->stretch_count && c->stretches[i].regime != FST_REGIME_COUNTER_ROTATING)
+        ++i;
+    return i == c->stretch_count ? "no bead circles against the magnet\n"
+           : i == 0 ? "the bead circles against the magnet at the lowest speed already: begin lower\n"
+                    : "the bead circles against the magnet, but not for another tenth of the speed: look at "
+                      "the runs, or go "
+                      "on to higher speeds\n";
+}
+
+static void print_critical(FILE *out, const fst_critical *c)
+{
+    const int is_frequency = strcmp(c->key, "drive.frequency") == 0;
+    const char *unit = is_frequency ? " Hz" : " gamma";
+    if (c->found) {
+        (void)fputs("critical speed: ", out);
+        print_with_error(out, c->value, c->error, unit);
+        if (is_frequency)
+            (void)fprintf(out, ", %.2f turns a minute", 60 * c->value);
+        (void)fprintf(out, "\n  below it the bead is %s, from it on %s\n", fst_regime_name(c->below),
+                      fst_regime_name(c->above));
+        if (c->special >= 0)
+            (void)fprintf(out, "  there %s: %s of festoon branch --kind counter\n", special_docs[c->special],
+                          fst_special_name((fst_special_type)c->special));
+    } else {
+        (void)fputs("no critical speed in this range: ", out);
+        (void)fputs(why_none(c), out);
+    }
+    if (!isnan(c->parting) && c->parting != c->value) {
+        (void)fputs("  it goes with the magnet up to ", out);
+        print_with_error(out, c->parting, c->parting_error, unit);
+        (void)fputs("\n", out);
+    }
+    (void)fprintf(out, "%d runs, each from the scene's start:\n", c->runs);
+    for (size_t i = 0; i < c->stretch_count; ++i)
+        (void)fprintf(out, "  %-10.7g to %10.7g%s  %-17s %d %s\n", c->stretches[i].from, c->stretches[i].to,
+                      unit, fst_regime_name(c->stretches[i].regime), c->stretches[i].runs,
+                      c->stretches[i].runs == 1 ? "run" : "runs");
+}
+
+static fst_status perform(const arguments *given, FILE *out, fst_error *error)
+{
+    fst_params params;
+    fst_critical found = {.stretches = NULL};
+    progress_line line;
+    const fst_progress progress = {&line, progress_tell};
+    fst_critical_options o = fst_default_critical_options();
+    const char *over = option_value(given, "over"), *tolerance = option_value(given, "tolerance");
+    fst_status status = read_scene(given, operand(given), &params, error);
+    if (status == FST_OK && tolerance)
+        status = read_numbers("--tolerance", tolerance, &o.tolerance, 1, error);
+    if (status != FST_OK)
+        return status;
+    warn_of_material(&params);
+    if (over)
+        o.over = over;
+    o.progress = &progress;
+    progress_begin(&line);
+    status = fst_critical_find(&params, &o, &found, error);
+    progress_end(&line);
+    if (status == FST_OK && option_value(given, "json"))
+        status = print_and_free(fst_critical_json(&params, &found), out, error);
+    else if (status == FST_OK)
+        print_critical(out, &found);
+    fst_critical_free(&found);
+    return status;
+}
+
+const command critical_command = {
+    .name = "critical",
+    .synopsis = "[SCENE.yaml] [--set KEY=VALUE]... [--over KEY=LO:HI:COUNT] [--json]",
+    .summary = "From which speed on the bead circles against the magnet",
+    .details = "Runs over the range, each from the scene's start, show where the outcome changes; more runs "
+               "enclose the\n"
+               "lowest speed from which on all circle against the magnet for at least a tenth more.  With "
+               "smooth friction\n"
+               "the border is a special point of the branch of these orbits, which gives its digits.  With dry "
+               "friction\n"
+               "outcomes alternate near the border: the list of all runs shows where.\n",
+    .options = options,
+    .most_operands = 1,
+    .perform = perform,
+};

@@ -1,0 +1,72 @@
+"""`festoon critical`: the border of runs is the special point of the branch; where there is none, and bad input.
+
+tests: sweep/critical.c cli/critical.c
+labels: slow"""
+
+import json
+import unittest
+
+from sweep_tools import festoon
+
+FEW = ["--over", "drive.frequency=8.5Hz:10Hz:4", "--tolerance", "1e-3"]
+
+
+def critical(*words):
+    status, out, err = festoon("critical", *words, "--json")
+    assert status == 0, err
+    return json.loads(out)
+
+
+class Critical(unittest.TestCase):
+    def test_the_border_is_the_crossing_of_the_branch(self):
+        found = critical(*FEW)
+        branch = json.loads(festoon("branch", "--kind", "counter", "--over", "drive.frequency=8.5Hz:10Hz", "--json")[1])
+        (crossing,) = [point["value"] for point in branch["specials"] if point["type"] == "origin-crossing"]
+        self.assertEqual((found["special"], found["below"], found["above"]), ("origin-crossing", "librating", "counter-rotating"))
+        self.assertLess(abs(found["value"] - crossing), found["error"])
+        self.assertLess(found["error"], 1e-8)
+        self.assertEqual((found["parting"], found["parting_error"]), (found["value"], found["error"]))
+        below, above = found["stretches"]  # the runs alone enclose it as tightly as asked
+        self.assertTrue(below["to"] < crossing < above["from"] and above["from"] - below["to"] < 1e-3 * crossing)
+        self.assertEqual(found["runs"], below["runs"] + above["runs"])
+        scaled = critical("--set", "drive.omega=0.3", "--over", "drive.omega=0.17:0.2:4", "--tolerance", "0.05")
+        gamma = scaled["scene"]["friction.gamma"]
+        self.assertLess(abs(scaled["value"] * gamma / (2 * 3.141592653589793) - crossing), 1e-8)
+
+    def test_dry_friction_is_enclosed_by_runs_which_alternate(self):
+        """Each border lies between runs of `run` itself that differ; above the speed none does anything else."""
+        found = critical("--set", "friction.law=coulomb", "--over", "drive.frequency=7Hz:11Hz:5", "--tolerance", "0.05")
+        self.assertIsNone(found["special"])
+        self.assertEqual(found["above"], "counter-rotating")
+        self.assertLess(found["parting"] + found["parting_error"], found["value"] - found["error"])
+        for at, goes in ((found["parting"] - 1.1 * found["parting_error"], True), (found["parting"] + 1.1 * found["parting_error"], False)):
+            run = json.loads(festoon("run", "--set", "friction.law=coulomb", "--set", f"drive.frequency={at:.17g}", "--json")[1])
+            self.assertEqual(run["regime"] in ("locked", "librating", "corotating"), goes, run["regime"])
+        for stretch in found["stretches"]:
+            if stretch["to"] > found["value"] + found["error"]:
+                self.assertIn(stretch["regime"], ("counter-rotating", "undecided"))
+            if stretch["regime"] == "counter-rotating" and stretch["from"] < found["value"]:
+                self.assertGreaterEqual(stretch["from"], found["value"] - found["error"] * (1 + 1e-9))
+
+    def test_none(self):
+        for words, said in ((["--over", "drive.frequency=10Hz:12Hz:3"], "at the lowest speed already"),
+                            (["--over", "drive.frequency=4Hz:6Hz:3"], "no bead circles against the magnet"),
+                            (["--over", "drive.frequency=8Hz:9.1Hz:3", "--tolerance", "0.05"], "not for another tenth of the speed")):
+            status, out, _ = festoon("critical", *words)
+            self.assertEqual(status, 0)
+            self.assertIn(said, out)
+            self.assertEqual(critical(*words)["value"], None)
+
+    def test_bad_input(self):
+        for words, said in ((["--over", "magnet.depth=1cm:2cm:3"], "drive.frequency or drive.omega"),
+                            (["--over", "drive.frequency=8Hz,9Hz"], "LO:HI:COUNT"),
+                            (["--tolerance", "0"], "1e-9 to 0.1"), (["--tolerance", "x"], "--tolerance"),
+                            (["--set", "plate.shape=none"], "one bead on a flat plate"),
+                            (["--set", "beads[0].start.r=0.5", "--set", "beads[1].start.r=0.9"], "one bead on a flat plate")):
+            status, out, err = festoon("critical", *words)
+            self.assertEqual((status, out), (2, ""), f"{words} {err}")
+            self.assertIn(said, err)
+
+
+if __name__ == "__main__":
+    unittest.main()
