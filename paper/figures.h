@@ -54,6 +54,8 @@ FST_PAPER_DRAW(magnet_fields)
 FST_PAPER_DRAW(magnet_speeds)
 /* ... and of several beads (beads.c). */
 FST_PAPER_DRAW(opposition)
+/* ... and of a travelling field (waves.c). */
+FST_PAPER_DRAW(waves)
 #undef FST_PAPER_DRAW
 
 /* The supplement's two films, beside the figures (films.c); paper->films counts the films that are made, in

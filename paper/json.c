@@ -1,5 +1,6 @@
 /* json.c - paper.json: the comparison for programs. */
 #include "paper/beads.h"
+#include "paper/waves.h"
 #include "paper/dry.h"
 #include "paper/figures.h"
 #include "paper/magnets.h"
@@ -428,6 +429,41 @@ static json_t *beads_array(const fst_paper_state *paper)
     return array;
 }
 
+static json_t *waves_object(const fst_paper_state *paper)
+{
+    static const char *const ways[FST_WAVE_WAYS] = {"up", "down", "forward"};
+    const fst_paper_waves *w = paper->waves;
+    if (!w || !paper->done[FST_PAPER_STEP_WAVES])
+        return NULL;
+    json_t *object = json_object(), *numbers = json_object(), *shares = json_array();
+    for (int way = 0; way < FST_WAVE_WAYS; ++way) {
+        json_t *runs = json_array();
+        for (int i = 0; i < w->drives; ++i) {
+            json_t *run = json_object();
+            put_number(run, "frequency_hz", w->hertz[i]);
+            put_number(run, "mean_velocity_mm_s", w->velocity[way][i]);
+            put_text(run, "regime", fst_regime_name(w->regime[way][i]));
+            json_array_append_new(runs, run);
+        }
+        put(object, runs, "%s", ways[way]);
+    }
+    for (int i = 0; i < FST_WAVE_NUMBERS; ++i) {
+        json_t *one = json_object();
+        put_number(one, "found", fst_wave_found(w, (fst_wave_number)i));
+        put_number(one, "formula", fst_wave_formula((fst_wave_number)i));
+        put(numbers, one, "%s", fst_wave_names[i]);
+    }
+    for (int i = 0; i < FST_WAVE_RATIOS && isfinite(w->share[i]); ++i) {
+        json_t *one = json_object();
+        put_number(one, "ratio", fst_wave_ratios[i]);
+        put_number(one, "forward", w->share[i]);
+        json_array_append_new(shares, one);
+    }
+    put(object, numbers, "numbers");
+    put(object, shares, "from_rest");
+    return object;
+}
+
 /* ------------------------------------------------------------------ the document */
 
 static json_t *provenance_object(const fst_paper_state *paper)
@@ -469,6 +505,7 @@ fst_status fst_paper_write_json(const fst_paper_state *paper, fst_error *error)
     put(document, dry_object(paper), "dry");
     put(document, magnets_object(paper), "magnets");
     put(document, beads_array(paper), "beads");
+    put(document, waves_object(paper), "waves");
     put(document, figures_array(paper), "figures");
     put(document, films, "films");
     put(document, provenance_object(paper), "provenance");

@@ -14,6 +14,7 @@
  * After an interruption or a failure, what was done so far is written all the same, marked as incomplete.
  */
 #include "paper/beads.h"
+#include "paper/waves.h"
 #include "paper/dry.h"
 #include "paper/figures.h"
 #include "paper/magnets.h"
@@ -75,7 +76,9 @@ static fst_status make_everything(fst_paper_state *paper, fst_error *error)
     if (status == FST_OK)
         status = fst_paper_make_beads(paper, error);
     if (status == FST_OK)
-        status = fst_paper_draw_figures(paper, 0.995, 1.0, error);
+        status = fst_paper_make_waves(paper, error);
+    if (status == FST_OK)
+        status = fst_paper_draw_figures(paper, 0.997, 1.0, error);
     paper->complete = status == FST_OK;
     return status;
 }
@@ -167,6 +170,7 @@ fst_status fst_paper(const char *directory, const fst_paper_options *options, fs
     if (status == FST_OK)
         status = options->only ? answer_one(&paper, error) : answer_all(&paper, began, error);
     free(paper.beads);
+    free(paper.waves);
     fst_paper_magnets_free(&paper);
     fst_paper_dry_free(&paper);
     fst_paper_free_runs(&paper);

@@ -1,5 +1,6 @@
 /* report.c - report.html: the comparison for people, in one file that needs no other. */
 #include "paper/beads.h"
+#include "paper/waves.h"
 #include "paper/dry.h"
 #include "paper/magnets.h"
 #include "paper/report.h"
@@ -204,6 +205,7 @@ static fst_status write_all(FILE *out, const fst_paper_state *paper, fst_error *
     fst_report_dry(out, paper);
     fst_report_magnets(out, paper);
     fst_report_beads(out, paper);
+    fst_report_waves(out, paper);
     write_regimes(out, paper);
     write_provenance(out, paper);
     fputs("</main></body></html>\n", out);

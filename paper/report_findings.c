@@ -2,6 +2,7 @@
  * one that this run computed; what it has not computed is left out. */
 #include "base/constants.h"
 #include "paper/beads.h"
+#include "paper/waves.h"
 #include "paper/dry.h"
 #include "paper/runs.h"
 #include "paper/report_parts.h"
@@ -25,6 +26,8 @@ static int is_known(const fst_paper_state *paper, const char *id)
         return paper->beads && paper->done[FST_PAPER_STEP_BEADS] &&
                fst_beads_changes(paper->beads, drives) == 3;
     }
+    if (strcmp(id, "waves") == 0) /* a reduced one has few drives and no beads let go at rest */
+        return paper->waves && paper->done[FST_PAPER_STEP_WAVES] && !paper->options->reduced;
     return fst_statement_known(fst_statement_named(id), paper);
 }
 
@@ -37,6 +40,9 @@ static double value_of(const fst_paper_state *paper, const char *column, const c
         (void)fst_beads_changes(paper->beads, drives);
         return drives[id[6] - '1'];
     }
+    for (int i = 0; i < FST_WAVE_NUMBERS && strncmp(id, "wave-", 5) == 0; ++i)
+        if (strcmp(id + 5, fst_wave_names[i]) == 0)
+            return fst_wave_found(paper->waves, (fst_wave_number)i);
     if (strcmp(id, "mu") == 0)
         return FST_DRY_MU;
     if (strcmp(id, "fold") == 0)
@@ -73,6 +79,7 @@ static void write_links(FILE *out, const char *ids)
         const int length = (int)strcspn(id, " ");
         const char *chapter = strcmp(id, "dry") == 0     ? "what dry friction says"
                               : strcmp(id, "beads") == 0 ? "several beads"
+                              : strcmp(id, "waves") == 0 ? "a travelling field"
                                                          : NULL;
         fprintf(out, "%s<a href=\"#%.*s\">%.*s</a>", id > ids ? ", " : "", length, id, chapter ? 64 : length,
                 chapter ? chapter : id);

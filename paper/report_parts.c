@@ -67,7 +67,7 @@ const char fst_report_introduction[] =
     "<h1>The counter-rotating bead, computed again</h1>\n"
     "<nav><a href=\"#found\">What we found</a><a href=\"#tally\">Count</a><a href=\"#table1\">Table 1</a><a "
     "href=\"#statements\">Claims</a><a href=\"#figures\">Figures</a><a href=\"#dry\">Dry friction</a><a "
-    "href=\"#beads\">Several beads</a><a "
+    "href=\"#beads\">Several beads</a><a href=\"#waves\">A travelling field</a><a "
     "href=\"#provenance\">Provenance</a></nav>\n"
     "<p>Put a small spherical magnet on a magnetic stirrer and turn it up. Slowly, the bead follows the "
     "magnet round. Faster, it lets go and, of all things, circles <em>the other way</em>, drawing garlands: "

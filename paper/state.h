@@ -37,6 +37,7 @@ typedef enum {
     FST_PAPER_STEP_DRY,
     FST_PAPER_STEP_MAGNETS,
     FST_PAPER_STEP_BEADS,
+    FST_PAPER_STEP_WAVES,
     FST_PAPER_STEP_COUNT
 } fst_paper_step;
 
@@ -163,6 +164,7 @@ typedef struct fst_paper_state {
     struct fst_paper_dry *dry; /* what is computed of a bead that rubs dry (dry.h); NULL within that itself */
     struct fst_paper_magnets *magnets;                            /* the runs on real magnets (magnets.h) */
     struct fst_paper_beads *beads;                                /* several beads (beads.h); NULL: not yet */
+    struct fst_paper_waves *waves;                                /* a travelling field (waves.h); the same */
     fst_balances balances[FST_PAPER_DYNAMICS][FST_BALANCE_CASES]; /* for the identities */
     fst_balances settled[FST_PAPER_DYNAMICS][FST_BALANCE_CASES];  /* over longer windows, for the means */
     fst_least_found remanence[FST_PAPER_DYNAMICS][FST_REMANENCE_DRIVES][FST_REMANENCE_STRENGTHS];

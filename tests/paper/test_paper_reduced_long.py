@@ -4,7 +4,8 @@ tests: paper/main.c paper/paper.c paper/runs.c paper/probes.c paper/probe_parts.
   paper/figures.c paper/films.c paper/exact.c paper/json.c paper/summary.c paper/table.c paper/work.c
   paper/report.c paper/report_figures.c paper/report_findings.c paper/report_statements.c paper/measures_theory.c
   paper/measures_equations.c paper/dry.c paper/dry_maps.c paper/dry_report.c paper/magnets.c
-  paper/magnets_charts.c paper/magnets_facts.c paper/magnets_report.c paper/beads.c paper/beads_report.c cli/paper.c
+  paper/magnets_charts.c paper/magnets_facts.c paper/magnets_report.c paper/beads.c paper/beads_report.c paper/waves.c
+  cli/paper.c
 labels: long slow"""
 
 import html
@@ -564,6 +565,25 @@ class Paper(ByHand, unittest.TestCase):
         self.assertNotIn("Together or apart", chapter)  # that takes long
         command = re.search("festoon orbit [^<]*", chapter).group(0)
         self.assertEqual(repeat(command.replace("'", "") + " --json")["multipliers"][0][0], -opposite["value"])
+
+    def test_a_travelling_field(self):
+        """A pendulum's hysteresis: lost at Om^2/C, caught at (4/pi) Om, as near as the drives are; and the two velocities."""
+        waves, k = self.paper["waves"], 2 * math.pi * 2.5e-3 / 0.11127
+        moment = 1.2 / 1.25663706127e-6 * 4 / 3 * math.pi * 2.5e-3**3
+        om = math.sqrt(moment * 5e-5 / (0.5e-3 * 2.5e-3**2 * 1.4)) * (1 - k)
+        for name, wanted in (("lost", om**2 / (12 / 1.4) / (2 * math.pi)), ("caught", 4 / math.pi * om / (2 * math.pi))):
+            number = waves["numbers"][name]
+            self.assertLess(abs(number["formula"] / wanted - 1), 1e-6)
+            self.assertLess(abs(number["found"] - wanted), 0.6)
+        self.assertLess(waves["numbers"]["kept"]["found"], waves["numbers"]["kept"]["formula"])
+        for way, word, side in (("up", "backward", 1), ("down", "backward", 1), ("forward", "forward", -1)):
+            locked = [run for run in waves[way] if run["regime"] == word]
+            self.assertGreater(len(locked), 2)
+            for run in locked:
+                speed = -side * 2.5 * 2 * math.pi * run["frequency_hz"] / (1 - side * k)
+                self.assertLess(abs(run["mean_velocity_mm_s"] / speed - 1), 0.02, run)
+        self.assertIn('id="waves"', self.report)
+        self.assertNotIn("choose it from", self.report)  # the finding needs all drives
 
     # ------------------------------------------------------------ without LAPACK, and on a phone
     def test_without_lapack(self):
