@@ -31,8 +31,10 @@ target_compile_options(festoon_compiler INTERFACE
 target_link_options(festoon_compiler INTERFACE -Wl,--build-id)
 
 if(FESTOON_SANITIZE)
-    target_compile_options(festoon_compiler INTERFACE
-        -fsanitize=${FESTOON_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    # What C leaves undefined ends the program by a signal, which AddressSanitizer reports with file and line: words for
+    # each place in the code would make the libraries four times as large, and each start of the program take twice as long.
+    target_compile_options(festoon_compiler INTERFACE -fsanitize=${FESTOON_SANITIZE} -fno-sanitize-recover=all
+        $<$<C_COMPILER_ID:GNU>:-fsanitize-undefined-trap-on-error> -fno-omit-frame-pointer)
     # Sanitizers call dlopen on the caller's behalf, from a library that knows nothing of the caller's
     # RUNPATH; the old RPATH of the program holds for every library.
     target_link_options(festoon_compiler INTERFACE
