@@ -23,16 +23,6 @@ def quiet(*words, **keywords):
     return made.stdout
 
 
-@pytest.fixture(scope="module")
-def repository(tmp_path_factory):
-    """A copy of the sources, as a clone would have them."""
-    folder = tmp_path_factory.mktemp("clone") / "festoon"
-    shutil.copytree(
-        SOURCE, folder, ignore=shutil.ignore_patterns("build", "build-*", ".git", "__pycache__", "demo-results")
-    )
-    return folder
-
-
 @pytest.fixture()
 def venv(tmp_path):
     quiet("/usr/bin/python3", "-m", "venv", "--system-site-packages", str(tmp_path / "venv"))
@@ -49,14 +39,29 @@ def expect(python, folder, tmp_path):
     assert str(folder) in path
 
 
-def test_source_distribution_and_wheel(repository, venv, tmp_path):
-    """A source distribution holds all that the build needs; the wheel built of it needs neither it nor a compiler."""
+def test_source_distribution_editable_and_wheel(venv, tmp_path):
+    """A source distribution, which pip reads, holds all that the build needs.  One build of it serves both: an
+    edited module is at work at once; and the wheel needs neither it nor a compiler."""
     code = f"import sys; sys.path.insert(0, 'python'); import build_backend as b; print(b.build_sdist({str(tmp_path)!r}))"
-    sources = tmp_path / quiet(str(venv), "-B", "-c", code, cwd=repository).strip()
+    sources = tmp_path / quiet(str(venv), "-B", "-c", code, cwd=SOURCE).strip()
+    quiet(str(venv), *PIP, "install", "--dry-run", "--no-index", "--no-deps", str(sources))
     with tarfile.open(sources) as content:
         assert f"{sources.name[:-7]}/PKG-INFO" in content.getnames()
-    quiet(str(venv), *PIP, "wheel", *SOON, "--no-index", "--no-deps", "-w", str(tmp_path), str(sources))
+        content.extractall(tmp_path)
+    repository = tmp_path / sources.name[:-7]
     sources.unlink()
+
+    quiet(str(venv), *PIP, "install", *SOON, "--no-index", "-e", str(repository))
+    expect(venv, repository, tmp_path)
+    module = repository / "python/festoon/__init__.py"
+    text = module.read_text(encoding="utf-8")
+    module.write_text(text + "\nEDITED = True\n", encoding="utf-8")
+    assert quiet(str(venv), "-c", "import festoon; print(festoon.EDITED)", cwd=tmp_path) == "True\n"
+    module.write_text(text, encoding="utf-8")
+    quiet(str(venv), *PIP, "uninstall", "-y", "festoon")
+
+    quiet(str(venv), *PIP, "wheel", *SOON, "--no-index", "--no-deps", "-w", str(tmp_path), str(repository))
+    shutil.rmtree(repository)
     wheel = next(tmp_path.glob("festoon-*-abi3-*.whl"))
     with zipfile.ZipFile(wheel) as content:
         names = content.namelist()
@@ -66,15 +71,6 @@ def test_source_distribution_and_wheel(repository, venv, tmp_path):
     quiet(str(venv), *PIP, "uninstall", "-y", "festoon")
     left = list((tmp_path / "venv").rglob("*festoon*"))
     assert not left
-
-
-def test_editable(repository, venv, tmp_path):
-    """pip builds from the repository too, and an edited module is at work at once."""
-    quiet(str(venv), *PIP, "install", *SOON, "--no-index", "-e", str(repository))
-    expect(venv, repository, tmp_path)
-    with open(repository / "python/festoon/__init__.py", "a", encoding="utf-8") as file:
-        file.write("\nEDITED = True\n")
-    assert quiet(str(venv), "-c", "import festoon; print(festoon.EDITED)", cwd=tmp_path) == "True\n"
 
 
 def backend(code, **environment):

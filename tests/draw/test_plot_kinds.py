@@ -2,7 +2,8 @@
 numbers of the figures are those of their files, axes have units, keys have no empty lines, and bad input is refused
 with nothing left behind.
 
-tests: draw/path.c draw/field_map.c draw/figure_series.c draw/smooth.c cli/plot.c"""
+tests: draw/path.c draw/field_map.c draw/figure_series.c draw/smooth.c cli/plot.c
+labels: slow"""
 
 import csv
 import json

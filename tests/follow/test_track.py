@@ -3,7 +3,8 @@ names of files, and what cannot be tracked.  More: test_track_long.py.
 
 Without ffmpeg the test is skipped.
 
-tests: follow/follow.c follow/decoder.c follow/source.c follow/learn.c follow/bead.c cli/track.c cli/camera.c"""
+tests: follow/follow.c follow/decoder.c follow/source.c follow/learn.c follow/bead.c cli/track.c cli/camera.c
+labels: slow"""
 
 import math
 import os

@@ -1,6 +1,6 @@
 """What a build says where something is missing: the library with its Debian package, or what is about to be installed.
 
-labels: tree"""
+labels: slow tree"""
 
 import os
 import pathlib
