@@ -4,6 +4,7 @@
 #include <festoon/beads.h>
 
 #include "base/error.h"
+#include "draw/caption.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -113,6 +114,19 @@ void fst_sweep_words(const char *label, char words[128])
         *unit = '\0';
 }
 
+/* What is not the default, but for the axes, and the drive where that is one in either form. */
+static void add_caption(const fst_grid *grid, char *about, size_t size)
+{
+    const char *shown[FST_AXIS_LIMIT + 2] = {"model.dynamics"};
+    int count = 1;
+    for (int i = 0; i < fst_grid_axis_count(grid); ++i) {
+        shown[count++] = fst_grid_key(grid, i);
+        if (strcmp(fst_grid_key(grid, i), "drive.omega") == 0)
+            shown[count++] = "drive.frequency";
+    }
+    fst_caption(fst_grid_base(grid), shown, count, about, size);
+}
+
 void fst_sweep_about(const fst_sweep_table *table, char *about, size_t size)
 {
     const fst_grid *grid = table->grid;
@@ -121,8 +135,10 @@ void fst_sweep_about(const fst_sweep_table *table, char *about, size_t size)
     (void)snprintf(about + used, size - used, "%s%s", used ? "; " : "",
                    varies(grid, "model.dynamics") ? "" : "dynamics ");
     if (!varies(grid, "model.dynamics"))
-        (void)snprintf(about + strlen(about), size - strlen(about), "%s, ",
+        (void)snprintf(about + strlen(about), size - strlen(about), "%s",
                        fst_dynamics_name((fst_dynamics)base->model_dynamics));
+    add_caption(grid, about, size);
+    (void)snprintf(about + strlen(about), size - strlen(about), "%s", strlen(about) > used ? ", " : "");
     const int64_t points = fst_grid_points(grid);
     const int whole = table->refine || table->rows == points;
     (void)snprintf(about + strlen(about), size - strlen(about), "%lld", (long long)table->rows);

@@ -3,6 +3,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "draw/caption.h"
 
 #include <stdarg.h>
 #include <stdlib.h>
@@ -153,6 +154,9 @@ static fst_status choose_rows(fst_view *view, const fst_figure_options *options,
 
 static void describe(fst_view *view)
 {
+    static const char *const shown[] = {"model.dynamics", "drive.frequency", "drive.omega", "friction.law",
+                                        "friction.mu"};
+    const int dry = view->table->params.friction_law == FST_FRICTION_COULOMB;
     const fst_params *p = &view->table->params;
     const double hertz = view->gamma / (2.0 * FST_PI);
     const char *dynamics = fst_dynamics_name((fst_dynamics)p->model_dynamics);
@@ -164,9 +168,10 @@ static void describe(fst_view *view)
     else
         used = snprintf(view->about, sizeof view->about, "ω = %.4g (%.4g Hz), dynamics %s", view->omega,
                         view->omega * hertz, dynamics);
-    if (p->friction_law == FST_FRICTION_COULOMB && used > 0 && (size_t)used < sizeof view->about)
+    if (dry && used > 0 && (size_t)used < sizeof view->about)
         (void)snprintf(view->about + used, sizeof view->about - (size_t)used, ", dry friction μ = %.3g",
                        p->friction_mu);
+    fst_caption(p, shown, dry ? 5 : 3, view->about, sizeof view->about);
 }
 
 fst_legend fst_view_legend(const fst_view *view, const char *what)

@@ -1,0 +1,96 @@
+/* test_caption.c - the line below a figure's title names what is not the default, each key of the table once.
+ * tests: draw/caption.c */
+#include "numeric.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include <festoon/festoon.h>
+#include "draw/caption.h"
+
+/* Another value of a row that it may have; NULL: a text. */
+static const char *another(const fst_param_info *row, char text[64])
+{
+    if (row->kind == FST_KIND_TEXT)
+        return NULL;
+    if (row->kind ==
+        FST_KIND_CHOICE) { /* the second of the names, or the first where the default is the second */
+        const char *second = strchr(row->names, '|') + 1;
+        const char *chosen = row->initial == 1 ? row->names : second;
+        (void)snprintf(text, 64, "%.*s", (int)strcspn(chosen, "|"), chosen);
+        return text;
+    }
+    const double least = row->least > 0 ? row->least : 0;
+    const double value =
+        isnan(row->initial) || row->initial == least ? fmin(row->greatest, 2 * least + 1) : least;
+    (void)snprintf(text, 64, "%.17g", value);
+    return text;
+}
+
+static void each_key_is_named(void **state)
+{
+    (void)state;
+    int named = 0;
+    for (int i = 0; i < fst_param_count(); ++i) {
+        const fst_param_info *row = fst_param_at(i);
+        char value[64], text[256] = "";
+        fst_params params = fst_default_params();
+        if (!another(row, value) || fst_params_set(&params, row->key, value, NULL) != FST_OK)
+            continue;
+        fst_caption(&params, NULL, 0, text, sizeof text);
+        const int told = strncmp(row->key, "run.", 4) != 0 && strcmp(row->key, "world.frame") != 0;
+        const char *place = strstr(text, row->key);
+        assert_int_equal(place != NULL, told);
+        if (!told)
+            continue;
+        ++named;
+        assert_null(strstr(place + 1, row->key));
+        const char *keys[] = {row->key};
+        char silent[256] = "";
+        fst_caption(&params, keys, 1, silent, sizeof silent);
+        assert_null(strstr(silent, row->key));
+    }
+    assert_true(named > 40);
+}
+
+static void values_have_their_units(void **state)
+{
+    (void)state;
+    char text[256] = "dynamics rigid";
+    fst_params params = fst_default_params();
+    fst_caption(&params, NULL, 0, text, sizeof text);
+    assert_string_equal(text, "dynamics rigid");
+    assert_int_equal(fst_params_set(&params, "friction.law", "coulomb", NULL), FST_OK);
+    assert_int_equal(fst_params_set(&params, "bead.radius", "2 mm", NULL), FST_OK);
+    fst_caption(&params, NULL, 0, text, sizeof text);
+    assert_string_equal(text, "dynamics rigid, bead.radius 2 mm, friction.law coulomb");
+}
+
+/* Many differences: what has no room is counted. */
+static void what_has_no_room_is_counted(void **state)
+{
+    (void)state;
+    char text[256] = "", value[64];
+    int all = 0, told = 0, left = 0;
+    fst_params params = fst_default_params();
+    for (int i = 0; i < fst_param_count(); ++i) {
+        const fst_param_info *row = fst_param_at(i);
+        if (strncmp(row->key, "start.", 6) == 0 || strncmp(row->key, "plate.", 6) == 0)
+            all += another(row, value) && fst_params_set(&params, row->key, value, NULL) == FST_OK;
+    }
+    fst_caption(&params, NULL, 0, text, sizeof text);
+    const char *more = strstr(text, " and ");
+    assert_non_null(more);
+    assert_int_equal(sscanf(more, " and %d more", &left), 1);
+    for (const char *at = text; at && at < more; at = strstr(at + 1, ", "))
+        ++told;
+    assert_int_equal(told + left, all);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(each_key_is_named),
+                                       cmocka_unit_test(values_have_their_units),
+                                       cmocka_unit_test(what_has_no_room_is_counted)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
