@@ -1,4 +1,4 @@
-"""A larger sample of tests/reliability/faults.py: every command, one fault in five, and all special cases.
+"""A larger sample of tests/reliability/faults.py: every command at many places, and all special cases.
 
 tests: host/whole_file.c
 labels: long"""
