@@ -13,7 +13,8 @@ static const option options[] = {
      "radius-field (r and |B| against Phi), time (columns against time), section (Poincare section: one\n"
      "column against another where Phi passes 90 degrees), ramp (columns against the drive of a ramp, for "
      "which\n"
-     "it is the kind without this option); of several beads: path or groups (distances, contacts and loads)"},
+     "it is the kind without this option); of several beads: path or groups (distances, contacts and loads);\n"
+     "of one in a world: path or lag (of the moment behind the field, the portrait of a lock)"},
     {"key", '\0', "KEY,...",
      "of a sweep: the keys of festoon run to draw (regime: a map of regimes); of the kinds time, section and\n"
      "ramp: the columns of the trajectory (r,n_z)"},

@@ -347,15 +347,20 @@ fst_status fst_chart_of_beads(const fst_beads_table *table, const fst_figure_opt
     if (options->cookie != defaults.cookie)
         return fst_fail(error, FST_BAD_INPUT, "fst_chart_of_beads",
                         "the options were not made by fst_default_figure_options()");
-    if (options->kind != FST_FIGURE_PATH && options->kind != FST_FIGURE_GROUPS)
-        return fst_fail(error, FST_BAD_INPUT, "fst_figure_options.kind",
-                        "of several beads there are figures of their path and of their groups");
+    fst_status (*const draw)(const fst_beads_table *, const fst_figure_options *, fst_chart *, fst_error *) =
+        options->kind == FST_FIGURE_PATH     ? fst_chart_of_paths
+        : options->kind == FST_FIGURE_GROUPS ? fst_chart_of_groups
+        : options->kind == FST_FIGURE_LAG    ? fst_chart_of_lag
+                                             : NULL;
+    if (!draw)
+        return fst_fail(
+            error, FST_BAD_INPUT, "fst_figure_options.kind",
+            "of several beads there are figures of their path and of their groups, and of one in a world "
+            "of its path and its lag");
     fst_chart *made = fst_chart_new();
     if (!made)
         return fst_fail(error, FST_NO_MEMORY, "fst_chart_of_beads", "out of memory");
-    const fst_status status = options->kind == FST_FIGURE_PATH
-                                  ? fst_chart_of_paths(table, options, made, error)
-                                  : fst_chart_of_groups(table, options, made, error);
+    const fst_status status = draw(table, options, made, error);
     if (status == FST_OK)
         *chart = made;
     else

@@ -9,6 +9,8 @@ fst_status fst_chart_of_paths(const fst_beads_table *table, const fst_figure_opt
                               fst_error *error);
 fst_status fst_chart_of_groups(const fst_beads_table *table, const fst_figure_options *options,
                                fst_chart *chart, fst_error *error);
+fst_status fst_chart_of_lag(const fst_beads_table *table, const fst_figure_options *options, fst_chart *chart,
+                            fst_error *error);
 
 /* Whether two beads, the lesser first, touch in a row. */
 static inline int fst_beads_touch_in(const fst_beads_table *table, size_t row, const int beads[2])

@@ -42,6 +42,10 @@ fst_status fst_figure_trajectory(const fst_table *table, const char *out, const 
         return fst_figure_section(table, out, options, error);
     case FST_FIGURE_RAMP:
         return fst_figure_ramp(table, out, options, error);
+    case FST_FIGURE_LAG:
+        return fst_fail(error, FST_BAD_INPUT, "fst_figure_options.kind",
+                        "a figure of the lag is of a bead in a world, and this one is on a plate: the kind "
+                        "time shows its angles");
     case FST_FIGURE_GROUPS:
         return fst_fail(error, FST_BAD_INPUT, "fst_figure_options.kind",
                         "a figure of groups is of several beads, and this trajectory is of one");

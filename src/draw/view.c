@@ -117,7 +117,8 @@ static const struct {
                                [FST_FIGURE_TIME] = {INFINITY, 8.0},
                                [FST_FIGURE_SECTION] = {INFINITY, INFINITY},
                                [FST_FIGURE_RAMP] = {INFINITY, INFINITY},
-                               [FST_FIGURE_GROUPS] = {INFINITY, INFINITY}};
+                               [FST_FIGURE_GROUPS] = {INFINITY, INFINITY},
+                               [FST_FIGURE_LAG] = {INFINITY, INFINITY}};
 
 /* Find the rows that are shown. */
 static fst_status choose_rows(fst_view *view, const fst_figure_options *options, fst_error *error)
@@ -154,14 +155,17 @@ static fst_status choose_rows(fst_view *view, const fst_figure_options *options,
 
 static void describe(fst_view *view)
 {
-    static const char *const shown[] = {"model.dynamics", "drive.frequency", "drive.omega", "friction.law",
-                                        "friction.mu"};
+    static const char *const shown[] = {"friction.law", "friction.mu", "model.dynamics", "drive.frequency",
+                                        "drive.omega"};
+    const int steady = view->table->params.drive_waveform == FST_WAVEFORM_STEADY;
     const int dry = view->table->params.friction_law == FST_FRICTION_COULOMB;
     const fst_params *p = &view->table->params;
     const double hertz = view->gamma / (2.0 * FST_PI);
     const char *dynamics = fst_dynamics_name((fst_dynamics)p->model_dynamics);
     int used;
-    if (changes(view->first_omega, view->omega))
+    if (!steady)
+        used = snprintf(view->about, sizeof view->about, "dynamics %s", dynamics);
+    else if (changes(view->first_omega, view->omega))
         used =
             snprintf(view->about, sizeof view->about, "ω = %.4g to %.4g (%.4g to %.4g Hz), dynamics %s",
                      view->first_omega, view->omega, view->first_omega * hertz, view->omega * hertz, dynamics);
@@ -171,7 +175,7 @@ static void describe(fst_view *view)
     if (dry && used > 0 && (size_t)used < sizeof view->about)
         (void)snprintf(view->about + used, sizeof view->about - (size_t)used, ", dry friction μ = %.3g",
                        p->friction_mu);
-    fst_caption(p, shown, dry ? 5 : 3, view->about, sizeof view->about);
+    fst_caption(p, dry ? shown : shown + 2, (steady ? 5 : 3) - (dry ? 0 : 2), view->about, sizeof view->about);
 }
 
 fst_legend fst_view_legend(const fst_view *view, const char *what)

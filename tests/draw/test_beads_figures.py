@@ -1,7 +1,7 @@
 """`festoon plot` of several beads: paths, discs, contacts, gaps and loads in the figure's data are those of the
 trajectory, options that say nothing of several beads are refused, and damaged files are.
 
-tests: draw/figure_beads.c draw/figure_groups.c io/bead_table.c cli/plot.c"""
+tests: draw/figure_beads.c draw/figure_groups.c draw/figure_lag.c io/bead_table.c cli/plot.c"""
 
 import csv
 import json
@@ -203,6 +203,34 @@ class Beads(unittest.TestCase):
                 names = ("apart", "walker", "bar", "ring", "cluster", "ejected", "undecided")
                 self.assertEqual([names[int(y)] for piece in points for _, y in piece], found)
 
+    def test_the_lag_of_a_lock(self):
+        """In a wave and over a turning magnet the rate is the slope of the lag, and a lock ends where the rate is none."""
+        self.assertEqual(run("init", "--world", "wave", self.folder / "wave.yaml")[0], 0)
+        self.assertEqual(run("init", "--world", "levitation", self.folder / "levitation.yaml")[0], 0)
+        weak = ("--set", "medium.drag_rate=12", "--set", "plate.radius=500m", "--set", "wave.amplitude=0.05mT")
+        for scene, words, hertz, locked in (("wave", (*weak, "--set", "drive.frequency=5Hz", "--set", "run.duration=5s"), 5, True),
+                                            ("wave", (*weak, "--set", "drive.frequency=9Hz", "--set", "run.duration=2s"), 9, False),
+                                            ("levitation", ("--set", "run.duration=0.1s"), 200, None)):
+            told = run("run", self.folder / f"{scene}.yaml", *words, "--set", "run.samples=64", "-o", self.folder / "lag.csv")
+            self.assertEqual(told[0], 0, told[2])
+            script, curves = self.plot("--kind", "lag", "--from", 0, name="lag.csv")
+            (_, pieces), = [curve for some in curves.values() for curve in some if curve[0] == "panel1-curve1"]
+            steepest = max(abs(rate) for piece in pieces for _, rate in piece)
+            for piece in pieces:
+                for before, here, after in zip(piece, piece[1:], piece[2:]):
+                    slope = (after[0] - before[0]) / 360 * 64 * hertz / 2
+                    self.assertLess(abs(slope - here[1]), 0.02 * steepest, (scene, hertz))
+            self.assertTrue(locked is None or (len(pieces) == 1) == locked)
+            if locked:  # sin(lag) = C w/Om0^2 at rest; drag makes it slip, by less than a tenth
+                self.assertLess(abs(pieces[0][-1][1]), 1e-3 * steepest)
+                self.assertLess(abs(math.sin(math.radians(pieces[0][-1][0])) / (5 / 7.23) - 1), 0.1)
+                self.assertIn("drive.frequency 5 Hz", script)
+        self.refused("is of one bead in a world, and this trajectory is of 3", "--kind", "lag")
+        told = run("run", self.folder / "wave.yaml", "--set", "drive.waveform=oscillating", "--set", "run.duration=0.5s", "-o",
+                   self.folder / "swing.csv")
+        if told[0] == 0:
+            self.refused("a wave or a magnet that turns steadily", "--kind", "lag", name="swing.csv")
+
     def test_refusals(self):
         self.refused("--colour does not belong to a trajectory of several beads", "--colour", "slip")
         self.refused("--inset does not belong", "--inset")
@@ -217,6 +245,7 @@ class Beads(unittest.TestCase):
         status, _, messages = run("run", "--set", "run.periods=3", "--set", "run.discard=1", "-o", self.folder / "one.csv")
         self.assertEqual(status, 0, messages)
         self.refused("a figure of groups is of several beads", "--kind", "groups", name="one.csv")
+        self.refused("a figure of the lag is of a bead in a world", "--kind", "lag", name="one.csv")
 
     def test_damaged_files(self):
         """A row cut short, a number that is none, times that fall, a file of another kind."""
