@@ -14,7 +14,7 @@ enum {
     ABOUT_LINE = 16,
     KEY_LINE = 18,
     SAMPLE = 30, /* pixels for what stands before the words */
-    MOST_LINES = 4,
+    MOST_LINES = 5,
     LABEL_LINE = 16,
     LABEL_AWAY = 38, /* of an axis' label from the frame, with the numbers between them */
     LINE_SIZE = 160

@@ -8,7 +8,8 @@
 #include "base/units.h"
 #include "model/params.h"
 
-static const double UNLIKELY = 20; /* times the default */
+static const double UNLIKELY = 20, /* times the default */
+    UNLIKELY_TURNS = 30;           /* the same of drive.omega, which orbits are followed over up to 5 */
 
 int fst_param_is_bare(const char *text)
 {
@@ -26,7 +27,7 @@ static double frequency_of(const fst_params *params)
 static int is_unlikely(const fst_params *params, const fst_param_info *row)
 {
     if (strcmp(row->key, "drive.omega") == 0)
-        return frequency_of(params) > UNLIKELY * fst_param_at(fst_param_find("drive.frequency"))->initial;
+        return frequency_of(params) > UNLIKELY_TURNS * fst_param_at(fst_param_find("drive.frequency"))->initial;
     return row->kind == FST_KIND_REAL && fabs(fst_param_value(params, row)) > UNLIKELY * fabs(row->initial) &&
            fst_unit_meant(row->unit, fst_param_value(params, row), row->initial);
 }

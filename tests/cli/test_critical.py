@@ -33,21 +33,6 @@ class Critical(unittest.TestCase):
         gamma = scaled["scene"]["friction.gamma"]
         self.assertLess(abs(scaled["value"] * gamma / (2 * 3.141592653589793) - crossing), 1e-8)
 
-    def test_dry_friction_is_enclosed_by_runs_which_alternate(self):
-        """Each border lies between runs of `run` itself that differ; above the speed none does anything else."""
-        found = critical("--set", "friction.law=coulomb", "--over", "drive.frequency=7Hz:11Hz:5", "--tolerance", "0.05")
-        self.assertIsNone(found["special"])
-        self.assertEqual(found["above"], "counter-rotating")
-        self.assertLess(found["parting"] + found["parting_error"], found["value"] - found["error"])
-        for at, goes in ((found["parting"] - 1.1 * found["parting_error"], True), (found["parting"] + 1.1 * found["parting_error"], False)):
-            run = json.loads(festoon("run", "--set", "friction.law=coulomb", "--set", f"drive.frequency={at:.17g}", "--json")[1])
-            self.assertEqual(run["regime"] in ("locked", "librating", "corotating"), goes, run["regime"])
-        for stretch in found["stretches"]:
-            if stretch["to"] > found["value"] + found["error"]:
-                self.assertIn(stretch["regime"], ("counter-rotating", "undecided"))
-            if stretch["regime"] == "counter-rotating" and stretch["from"] < found["value"]:
-                self.assertGreaterEqual(stretch["from"], found["value"] - found["error"] * (1 + 1e-9))
-
     def test_none(self):
         for words, said in ((["--over", "drive.frequency=10Hz:12Hz:3"], "at the lowest speed already"),
                             (["--over", "drive.frequency=4Hz:6Hz:3"], "no bead circles against the magnet"),

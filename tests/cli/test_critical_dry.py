@@ -1,0 +1,33 @@
+"""`festoon critical` under dry friction, where outcomes alternate about the border.
+
+tests: sweep/critical.c
+labels: numbers"""
+
+import json
+import unittest
+
+from sweep_tools import festoon
+
+
+class Critical(unittest.TestCase):
+    def test_dry_friction_is_enclosed_by_runs_which_alternate(self):
+        """Each border lies between runs of `run` itself that differ; above the speed none does anything else."""
+        status, out, err = festoon("critical", "--set", "friction.law=coulomb", "--over", "drive.frequency=7Hz:11Hz:5", "--tolerance", "0.05",
+                                   "--json")
+        self.assertEqual(status, 0, err)
+        found = json.loads(out)
+        self.assertIsNone(found["special"])
+        self.assertEqual(found["above"], "counter-rotating")
+        self.assertLess(found["parting"] + found["parting_error"], found["value"] - found["error"])
+        for at, goes in ((found["parting"] - 1.1 * found["parting_error"], True), (found["parting"] + 1.1 * found["parting_error"], False)):
+            run = json.loads(festoon("run", "--set", "friction.law=coulomb", "--set", f"drive.frequency={at:.17g}", "--json")[1])
+            self.assertEqual(run["regime"] in ("locked", "librating", "corotating"), goes, run["regime"])
+        for stretch in found["stretches"]:
+            if stretch["to"] > found["value"] + found["error"]:
+                self.assertIn(stretch["regime"], ("counter-rotating", "undecided"))
+            if stretch["regime"] == "counter-rotating" and stretch["from"] < found["value"]:
+                self.assertGreaterEqual(stretch["from"], found["value"] - found["error"] * (1 + 1e-9))
+
+
+if __name__ == "__main__":
+    unittest.main()
