@@ -50,7 +50,7 @@ class Lab {
             this.camera.listen(canvas, () => this.wake());
         }
         try {
-            const deep = new View3D(solid, ROOM);
+            const deep = (this.deep = new View3D(solid, ROOM)); /* kept: off the page, its canvas would be collected as garbage */
             solid.addEventListener("webglcontextlost", () => {
                 this.showThrough(new View2D(plain));
                 this.tell(T.lostWebgl);
