@@ -161,7 +161,7 @@ print(json.dumps({{
         for table in NUMBERED:
             if table != "COLOURS":
                 self.assertEqual(told["numbered"][table], self.names[table])
-        self.assertEqual(told["numbered"]["COLOURS"], "#999933")
+        self.assertEqual(told["numbered"]["COLOURS"], "#ddcc77")
         for table, key in CHOICES.items():
             if key in told["choices"]:
                 self.assertIn(self.names[table], told["choices"][key][1])
