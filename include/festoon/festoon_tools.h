@@ -381,7 +381,8 @@ typedef struct fst_critical_stretch {
  * at least another tenth of the drive.  Values are those of `key`, in SI. */
 typedef struct fst_critical {
     char key[64];
-    int found; /* 0: no run does so in this range, or the lowest one does so already; then `value` is NAN */
+    int found;        /* 0: there is none in this range, because of `reason`; then `value` is NAN */
+    char reason[160]; /* "" where it is found */
     double value,
         error;   /* half of what the runs on either side leave open, or the error of the special point */
     int special; /* the fst_special_type of the branch's point that it is; -1: of none, it is enclosed by runs */

@@ -25,6 +25,8 @@ class Critical(Told):
         self.bead, self._told = bead, told
         #: "drive.frequency" (values in Hz) or "drive.omega" (in gamma).
         self.key: str = told["key"]
+        #: Why there is no critical speed in the range; None where there is one.
+        self.reason = told["reason"]
         #: The critical speed and its error; None where there is none in the range.
         self.value, self.error = told["value"], told["error"]
         #: The type of the branch's special point that it is, as "origin-crossing"; None where runs enclose it.
@@ -54,7 +56,7 @@ class Critical(Told):
 
     def __repr__(self) -> str:
         if self.value is None:
-            return f"Critical: none from {self.stretches[0].begin:g} to {self.stretches[-1].end:g}"
+            return f"Critical: none from {self.stretches[0].begin:g} to {self.stretches[-1].end:g}: {self.reason}"
         return f"Critical: {self.key} = {self.value:.10g} +- {self.error:.2g}, {self.below} below"
 
 

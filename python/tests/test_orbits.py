@@ -63,7 +63,8 @@ def test_critical():
     assert [row.regime for row in found.stretches] == [found.below, found.above] == ["librating", "counter-rotating"]
     again = pickle.loads(pickle.dumps(found))
     assert again.to_dict() == found.to_dict() and again == found
-    assert fs.Bead().critical(over="drive.frequency=4Hz:6Hz:3").value is None
+    none = fs.Bead().critical(over="drive.frequency=4Hz:6Hz:3")
+    assert found.reason is None and none.value is None and none.reason == "no bead circles against the magnet"
     with pytest.raises(fs.BadInput, match="a critical speed is one of"):
         fs.Bead().critical(over="magnet.depth=1cm:2cm:3")
 

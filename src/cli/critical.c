@@ -18,23 +18,11 @@ static const option options[] = {
 static const char *const special_docs[] = {FST_SPECIALS(DOC)};
 #undef DOC
 
-/* "8.897316318 +- 9e-09 Hz": two digits of the error. */
+/* "8.8973163183 +- 8.9e-09 Hz": the value to two digits of its error. */
 static void print_with_error(FILE *out, double value, double error, const char *unit)
 {
     const int decimals = error > 0 ? (int)fmax(0, ceil(-log10(error)) + 1) : 0;
     (void)fprintf(out, "%.*f +- %.2g%s", decimals, value, error, unit);
-}
-
-static const char *why_none(const fst_critical *c)
-{
-    size_t i = 0;
-    while (i < c->stretch_count && c->stretches[i].regime != FST_REGIME_COUNTER_ROTATING)
-        ++i;
-    return i == c->stretch_count ? "no bead circles against the magnet\n"
-           : i == 0 ? "the bead circles against the magnet at the lowest speed already: begin lower\n"
-                    : "the bead circles against the magnet, but not for another tenth of the speed: look at "
-                      "the runs, or go "
-                      "on to higher speeds\n";
 }
 
 static void print_critical(FILE *out, const fst_critical *c)
@@ -52,8 +40,7 @@ static void print_critical(FILE *out, const fst_critical *c)
             (void)fprintf(out, "  there %s: %s of festoon branch --kind counter\n", special_docs[c->special],
                           fst_special_name((fst_special_type)c->special));
     } else {
-        (void)fputs("no critical speed in this range: ", out);
-        (void)fputs(why_none(c), out);
+        (void)fprintf(out, "no critical speed in this range: %s\n", c->reason);
     }
     if (!isnan(c->parting) && c->parting != c->value) {
         (void)fputs("  it goes with the magnet up to ", out);

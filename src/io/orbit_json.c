@@ -301,6 +301,7 @@ char *fst_critical_json(const fst_params *params, const fst_critical *c)
     fst_json json = fst_json_begin('{');
     fst_json_text(&json, "key", c->key);
     fst_json_flag(&json, "found", c->found);
+    fst_json_text(&json, "reason", c->found ? NULL : c->reason);
     fst_json_real(&json, "value", c->value);
     fst_json_real(&json, "error", c->error);
     fst_json_text(&json, "special", c->special >= 0 ? fst_special_name((fst_special_type)c->special) : NULL);

@@ -24,7 +24,7 @@ typedef struct speed {
     fst_regime regime;
 } speed;
 
-/* The runs in order of their speeds, and those that are being done. */
+/* All runs, sorted by speed, because borders lie between neighbours; and the runs that the threads fill in now. */
 typedef struct search {
     const fst_params *params;
     const char *key;
@@ -158,7 +158,7 @@ static border find_critical(const search *s)
     b.low = b.high;
     while (b.found && b.low > 0 && (b.low == b.high || s->all[b.low].regime == FST_REGIME_UNDECIDED))
         --b.low;
-    return b;
+    return b; /* low = high: it is the lowest run; an undecided one at `low`: all below are */
 }
 
 /* The first run in which the bead does not go with the magnet, and the last below in which it does. */
@@ -217,7 +217,7 @@ static fst_status sharpen(search *s, fst_critical *c, fst_error *error)
     fst_error unheard;
     options.key = s->key;
     options.from = (1 - BRANCH_BELOW) * c->value;
-    options.to = (1 + BRANCH_ABOVE) * c->value;
+    options.to = fmin((1 + BRANCH_ABOVE) * c->value, fst_param_at(fst_param_find(s->key))->greatest);
     begin_part(s, 1.0, "branch");
     options.progress = &s->told;
     const fst_status status = fst_branch_follow(s->params, &options, &branch, &unheard);
@@ -235,9 +235,10 @@ static fst_status sharpen(search *s, fst_critical *c, fst_error *error)
         c->value = sharp;
         c->error = BRANCH_ERROR * c->value;
     }
-    if (status != FST_OK && status != FST_NO_CONVERGENCE)
-        return fst_fail(error, status, unheard.where, "%s", unheard.sentence);
-    return FST_OK; /* where no orbit was found the border stays as the runs enclose it */
+    /* Where no orbit was found, or the law has none of its own, the border stays as the runs enclose it. */
+    return status == FST_OK || status == FST_NO_CONVERGENCE || status == FST_BAD_INPUT
+               ? FST_OK
+               : fst_fail(error, status, unheard.where, "%s", unheard.sentence);
 }
 
 /* ------------------------------------------------------------------ the whole */
@@ -260,6 +261,23 @@ static fst_status put_stretches(const search *s, fst_critical *c, fst_error *err
     return FST_OK;
 }
 
+/* Why there is no critical speed. */
+static void tell_why(const search *s, const border *critical, fst_critical *c)
+{
+    int any = 0;
+    for (size_t i = 0; i < s->count; ++i)
+        any |= counter_rotates(s->all[i].regime);
+    (void)snprintf(c->reason, sizeof c->reason, "%s",
+                   !any               ? "no bead circles against the magnet"
+                   : !critical->found ? "the bead circles against the magnet, but not for another tenth of the "
+                                        "speed: look at the runs, or go on to higher speeds"
+                   : critical->low == critical->high
+                       ? "the bead circles against the magnet at the lowest speed already: begin "
+                         "lower"
+                       : "all runs below those that circle against the magnet are undecided: give "
+                         "a longer run.periods");
+}
+
 static fst_status find_borders(search *s, double tolerance, fst_critical *c, fst_error *error)
 {
     border parting = find_parting(s), critical = find_critical(s);
@@ -272,15 +290,17 @@ static fst_status find_borders(search *s, double tolerance, fst_critical *c, fst
         return status;
     parting = find_parting(s);
     critical = find_critical(s);
-    c->found = critical.found && critical.low < critical.high;
+    c->found =
+        critical.found && critical.low < critical.high && s->all[critical.low].regime != FST_REGIME_UNDECIDED;
+    if (!c->found)
+        tell_why(s, &critical, c);
     if (parting.found)
         put_border(s, &parting, follows, parts, &c->parting, &c->parting_error);
-    if (critical.found) {
+    if (c->found) {
         c->above = s->all[critical.high].regime;
         c->below = s->all[critical.low].regime;
-    }
-    if (c->found)
         put_border(s, &critical, counter_rotates, fails, &c->value, &c->error);
+    }
     if (c->found && s->params->friction_law != FST_FRICTION_COULOMB)
         status = sharpen(s, c, error);
     if (c->found && parting.found && parting.high == critical.high) { /* one border */

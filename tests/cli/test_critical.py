@@ -36,11 +36,16 @@ class Critical(unittest.TestCase):
     def test_none(self):
         for words, said in ((["--over", "drive.frequency=10Hz:12Hz:3"], "at the lowest speed already"),
                             (["--over", "drive.frequency=4Hz:6Hz:3"], "no bead circles against the magnet"),
+                            (["--set", "run.periods=4", "--set", "run.discard=1", "--over", "drive.frequency=8Hz:12Hz:5"],
+                             "all runs below those that circle against the magnet are undecided"),
+                            (["--over", "drive.frequency=9Hz:9.5Hz:2"], "not for another tenth of the speed"),
                             (["--over", "drive.frequency=8Hz:9.1Hz:3", "--tolerance", "0.05"], "not for another tenth of the speed")):
             status, out, _ = festoon("critical", *words)
             self.assertEqual(status, 0)
             self.assertIn(said, out)
-            self.assertEqual(critical(*words)["value"], None)
+            told = critical(*words)
+            self.assertEqual((told["value"], told["found"], told["below"]), (None, False, None))
+            self.assertIn(said, told["reason"])
 
     def test_bad_input(self):
         for words, said in ((["--over", "magnet.depth=1cm:2cm:3"], "drive.frequency or drive.omega"),
