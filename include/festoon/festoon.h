@@ -309,6 +309,13 @@ FST_API const char *fst_key_of_surroundings(const fst_params *params);
  * where that is asked for; otherwise the magnet's. */
 FST_API int fst_frame_of_world(const fst_params *params);
 
+/* Turns or periods of the drive per second: drive.frequency, or what drive.omega is. */
+FST_API double fst_drive_frequency(const fst_params *params);
+
+/* How many periods of the drive have passed at the time `t` (1/gamma), when the magnet had turned by `turns`: these where it
+ * turns steadily or in a ramp; the frequency times the time of any other drive, of which the magnet may turn back. */
+FST_API double fst_drive_periods(const fst_params *params, double t, double turns);
+
 /* The length of a run in drive periods: run.periods, or as many as run.duration has. */
 FST_API double fst_run_periods(const fst_params *params);
 

@@ -113,7 +113,9 @@ class BeadsTrajectory(Told):
 
         units_of(units)
         ax = _style.axes(ax, 5.4, 5.8)
-        shown = (self.drive_turns >= (-math.inf if begin is None else begin)) & (self.drive_turns <= (math.inf if end is None else end))
+        scene = self.setup._params  # where the magnet turns to and fro, periods are time by frequency
+        periods = np.array([lib.fst_drive_periods(scene, t, turns) for t, turns in zip(self.t, self.drive_turns)])
+        shown = (periods >= (-math.inf if begin is None else begin)) & (periods <= (math.inf if end is None else end))
         places, scales = self.places(units)[shown], Scales(self.setup._params, units)
         factor, unit = scales.factor("mean_r", "l")
         from matplotlib.patches import Circle

@@ -98,11 +98,18 @@ static int put_gaps(series *s, fst_chart_panel *panel, const char *unit)
 
 /* ------------------------------------------------------------------ contacts */
 
+/* In a row: turns of the magnet, or periods of a drive that does not turn it steadily. */
+static double period_at(const series *s, size_t row)
+{
+    return fst_drive_periods(&s->table->scene, s->table->t[row], s->table->drive_turns[row]);
+}
+
 /* The turns between a row and the one before, where contacts are taken to change; the ends stay within what is shown. */
 static double turns_before(const series *s, size_t row)
 {
-    const double *turns = s->table->drive_turns;
-    return row == s->first ? turns[row] : row == s->last ? turns[row - 1] : 0.5 * (turns[row - 1] + turns[row]);
+    return row == s->first  ? period_at(s, row)
+           : row == s->last ? period_at(s, row - 1)
+                            : 0.5 * (period_at(s, row - 1) + period_at(s, row));
 }
 
 /* Bars at the height `level` while a pair touches; 0: no memory. */
@@ -204,23 +211,22 @@ static fst_status choose_rows(series *s, const fst_figure_options *options, fst_
     const fst_beads_table *table = s->table;
     const double slack = 1e-9; /* samples lie on their turn except for rounding */
     s->last = table->rows;
-    while (s->first < s->last && table->drive_turns[s->first] < options->from - slack)
+    while (s->first < s->last && period_at(s, s->first) < options->from - slack)
         ++s->first;
-    while (s->last > s->first && table->drive_turns[s->last - 1] > options->to + slack)
+    while (s->last > s->first && period_at(s, s->last - 1) > options->to + slack)
         --s->last;
     if (s->last - s->first < 2)
         return fst_fail(error, FST_BAD_INPUT, "fst_figure_options.from",
                         "fewer than two samples there: the trajectory covers the drive periods %.6g to %.6g",
-                        table->rows ? table->drive_turns[0] : 0.0,
-                        table->rows ? table->drive_turns[table->rows - 1] : 0.0);
-    if (!(table->drive_turns[s->last - 1] > table->drive_turns[s->first]))
+                        table->rows ? period_at(s, 0) : 0.0, table->rows ? period_at(s, table->rows - 1) : 0.0);
+    if (!(period_at(s, s->last - 1) > period_at(s, s->first)))
         return fst_fail(error, FST_BAD_INPUT, "fst_figure_options.kind",
                         "a figure of groups is over turns of the magnet, which does not turn here");
     s->step = 1 + (s->last - s->first - 1) / MOST_POINTS;
     s->points = 1 + (s->last - s->first - 1) / s->step;
     s->x = fst_chart_keep(s->chart, s->points * sizeof *s->x);
     for (size_t k = 0; k < s->points && s->x; ++k)
-        s->x[k] = table->drive_turns[s->first + k * s->step];
+        s->x[k] = period_at(s, s->first + k * s->step);
     return s->x ? FST_OK : no_memory(error);
 }
 
@@ -332,7 +338,8 @@ fst_status fst_chart_of_groups(const fst_beads_table *table, const fst_figure_op
     tell_end(&s, about + strlen(about), sizeof about - strlen(about));
     chart->title = fst_chart_text(chart, options->title ? options->title : title);
     chart->about = fst_chart_text(chart, about);
-    chart->x_label = "turns of the magnet";
+    chart->x_label =
+        table->scene.drive_waveform == FST_WAVEFORM_STEADY ? "turns of the magnet" : "periods of the drive";
     chart->x_low = s.x[0];
     chart->x_high = s.x[s.points - 1];
     return chart->title && chart->about ? FST_OK : no_memory(error);

@@ -102,8 +102,9 @@ static int put_magnet(fst_path_picture *picture, const fst_view *view, const pat
                                 picture->lines, &picture->line_count, &picture->memory);
     picture->line_count = 1;
     return fst_magnet_outline(p, view->length, turned,
-                              d->turns
-                                  ? "outline of the magnet's lines"
+                              d->turns ? "outline of the magnet's lines"
+                              : p->drive_waveform != FST_WAVEFORM_STEADY
+                                  ? "outline of the magnet's lines at the beginning"
                                   : "outline of the magnet's lines at the beginning; it turns anticlockwise",
                               &picture->lines[0], &picture->memory);
 }

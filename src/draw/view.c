@@ -83,11 +83,12 @@ static int changes(double first, double last)
     return fabs(last - first) > 1e-9 * fabs(last);
 }
 
-/* Whether the drive is a ramp, which is shown as a whole. */
+/* Whether the drive is a ramp. */
 static int is_ramp(const fst_table *table)
 {
     const double *omega = fst_collected(table, "omega");
-    return omega && table->rows > 1 && changes(omega[0], omega[table->rows - 1]);
+    return table->params.drive_waveform == FST_WAVEFORM_STEADY && omega && table->rows > 1 &&
+           changes(omega[0], omega[table->rows - 1]);
 }
 
 fst_figure_kind fst_figure_kind_of(const fst_table *table)
@@ -98,10 +99,11 @@ fst_figure_kind fst_figure_kind_of(const fst_table *table)
 /* The drive period from which on a trajectory is shown unless the options say: the end of the discard.  A run
  * that ended once it had settled is shown from a whole period on that lies at least 5.5 before its end, when
  * the motion was known; one that ended before its discard, from its beginning. */
-static double usual_from(const fst_table *table, const double *drive)
+static double usual_from(const fst_table *table, double end)
 {
     const fst_params *p = &table->params;
-    const double end = table->rows > 0 ? drive[table->rows - 1] : 0.0;
+    if (p->drive_waveform != FST_WAVEFORM_STEADY)
+        return 0.0;
     if (p->run_until == FST_UNTIL_SETTLED && table->complete && end + 1.0 < p->run_periods)
         return fmax(floor(end - 5.5), 0.0);
     return end > p->run_discard ? p->run_discard : 0.0;
@@ -120,34 +122,37 @@ static const struct {
                                [FST_FIGURE_GROUPS] = {INFINITY, INFINITY},
                                [FST_FIGURE_LAG] = {INFINITY, INFINITY}};
 
-/* Find the rows that are shown. */
+/* Find the rows that are shown: all of a ramp, and of a drive that is no steady turn, unless the options say. */
 static fst_status choose_rows(fst_view *view, const fst_figure_options *options, fst_error *error)
 {
-    const int whole = is_ramp(view->table);
+    const fst_params *p = &view->table->params;
+    const int whole = is_ramp(view->table) || p->drive_waveform != FST_WAVEFORM_STEADY;
     const double turns = whole ? INFINITY : lengths[options->kind].turns;
     const double periods = whole ? INFINITY : lengths[options->kind].periods;
-    const double *drive, *alpha;
-    fst_status status = fst_view_columns(view, error, "drive_turns", &drive, "alpha", &alpha, NULL);
+    const double *t, *drive, *alpha;
+    fst_status status = fst_view_columns(view, error, "t", &t, "drive_turns", &drive, "alpha", &alpha, NULL);
     if (status != FST_OK)
         return status;
     size_t rows = view->table->rows, first = 0;
-    const double from = isnan(options->from) ? usual_from(view->table, drive) : options->from;
-    while (first < rows && drive[first] < from - 1e-9)
+    const double end = rows > 0 ? fst_drive_periods(p, t[rows - 1], drive[rows - 1]) : 0.0;
+    const double from = isnan(options->from) ? usual_from(view->table, end) : options->from;
+    while (first < rows && fst_drive_periods(p, t[first], drive[first]) < from - 1e-9)
         ++first;
     size_t last = first;
-    while (last < rows) {
-        if (!isnan(options->to) ? drive[last] > options->to + 1e-9
-                                : drive[last] - drive[first] > periods ||
-                                      fabs(alpha[last] - alpha[first]) > 2.0 * FST_PI * turns)
+    for (double begin = NAN; last < rows; ++last) {
+        const double period = fst_drive_periods(p, t[last], drive[last]);
+        begin = last == first ? period : begin;
+        if (!isnan(options->to)
+                ? period > options->to + 1e-9
+                : period - begin > periods || fabs(alpha[last] - alpha[first]) > 2.0 * FST_PI * turns)
             break;
-        ++last;
     }
     if (last - first < 2)
         return fst_fail(
             error, FST_BAD_INPUT, "fst_figure_options.from",
             "fewer than two samples from drive period %g on: the trajectory has %zu samples and ends at "
             "period %g",
-            from, rows, rows > 0 ? drive[rows - 1] : 0.0);
+            from, rows, end);
     view->first = first;
     view->last = last;
     return FST_OK;

@@ -73,7 +73,7 @@ static fst_status tell_clock(fst_film_cast *cast, const double **clock, fst_erro
     if (!cast->periods)
         return no_memory(error);
     for (size_t row = 0; row < all->rows; ++row)
-        cast->periods[row] = all->t[row] * cast->omega / FST_TWO_PI;
+        cast->periods[row] = fst_drive_periods(p, all->t[row], all->drive_turns[row]);
     return FST_OK;
 }
 

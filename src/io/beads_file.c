@@ -356,7 +356,7 @@ static void find_touches(const column_list *list, double *const *data, size_t ro
     }
 }
 
-/* Whether all numbers but forces are finite and times rise; *row and *column say where not. */
+/* Whether all numbers but forces are finite and times rise; *row and *column say where not.  A magnet may turn back. */
 static int is_sound(const column_list *list, double *const *data, size_t rows, size_t *row, int *column)
 {
     const int numbers = TIMES + OF_A_BEAD * list->beads;
@@ -364,7 +364,7 @@ static int is_sound(const column_list *list, double *const *data, size_t rows, s
         for (*column = 0; *column < numbers; ++*column) {
             const double value = data[*column][*row];
             const int is_load = *column >= TIMES && (*column - TIMES) % OF_A_BEAD == FST_BEAD_NUMBERS;
-            const int falls = *column<TIMES && * row> 0 && !(value >= data[*column][*row - 1]);
+            const int falls = *column == 0 && *row > 0 && !(value >= data[*column][*row - 1]);
             if ((!isfinite(value) && !is_load) || falls)
                 return 0;
         }

@@ -63,7 +63,7 @@ static fst_status set_number(fst_params *params, const fst_param_info *row, cons
     const char *trimmed = fst_trim(text, &length);
     char shown[64], remark[128] = "";
     (void)snprintf(shown, sizeof shown, "%.*s", (int)(length < 40 ? length : 40), trimmed);
-    const char *meant = fst_param_is_bare(text) ? fst_unit_meant(row->unit, value, row->initial) : NULL;
+    const char *meant = fst_param_is_bare(text) ? fst_param_unit_meant(row, value) : NULL;
     if (meant)
         (void)snprintf(remark, sizeof remark, ", and %.9g without a unit is %.9g %s; did you mean %.9g %s?",
                        value, value, fst_unit_name(row->unit), value, meant);
@@ -241,13 +241,23 @@ double fst_run_discard(const fst_params *params)
     return params->run_discard == unless_told && !whole ? 0.5 * periods : params->run_discard;
 }
 
+double fst_drive_frequency(const fst_params *params)
+{
+    return isnan(params->drive_omega) ? params->drive_frequency
+                                      : params->drive_omega * params->friction_gamma / FST_TWO_PI;
+}
+
+double fst_drive_periods(const fst_params *params, double t, double turns)
+{
+    return params->drive_waveform == FST_WAVEFORM_STEADY
+               ? turns
+               : t * fst_drive_frequency(params) / params->friction_gamma;
+}
+
 double fst_run_periods(const fst_params *params)
 {
-    if (isnan(params->run_duration))
-        return params->run_periods;
-    const double omega = params->drive_omega;
-    return params->run_duration *
-           (isnan(omega) ? params->drive_frequency : omega * params->friction_gamma / FST_TWO_PI);
+    return isnan(params->run_duration) ? params->run_periods
+                                       : params->run_duration * fst_drive_frequency(params);
 }
 
 /* What contradicts itself in a world of the bead that is not a flat plate in air. */

@@ -225,11 +225,36 @@ class Beads(unittest.TestCase):
                 self.assertLess(abs(pieces[0][-1][1]), 1e-3 * steepest)
                 self.assertLess(abs(math.sin(math.radians(pieces[0][-1][0])) / (5 / 7.23) - 1), 0.1)
                 self.assertIn("drive.frequency 5 Hz", script)
+        lines = (self.folder / "lag.csv").read_text(encoding="utf-8").splitlines()
+        first = next(i for i, line in enumerate(lines) if not line.startswith("#")) + 1
+        place = [word.split(" [")[0] for word in lines[first - 1].split(",")].index("nX_0")
+        upright = [line if line.startswith("#") else ",".join([*line.split(",")[:place], "0,0,1", *line.split(",")[place + 3:]])
+                   for line in lines[first:]]
+        (self.folder / "upright.csv").write_text("\n".join([*lines[:first], *upright]) + "\n", encoding="utf-8")
+        self.refused("along the axis of the drive all the time", "--kind", "lag", name="upright.csv")
         self.refused("is of one bead in a world, and this trajectory is of 3", "--kind", "lag")
-        told = run("run", self.folder / "wave.yaml", "--set", "drive.waveform=oscillating", "--set", "run.duration=0.5s", "-o",
-                   self.folder / "swing.csv")
-        if told[0] == 0:
-            self.refused("a wave or a magnet that turns steadily", "--kind", "lag", name="swing.csv")
+        told = run("run", "--set", "drive.waveform=oscillating", "--set", "run.periods=3", "--set", "run.discard=1", "-o", self.folder / "swing.csv")
+        self.assertEqual(told[0], 0, told[2])
+        self.refused("a wave or a magnet that turns steadily", "--kind", "lag", name="swing.csv")
+
+    def test_every_drive(self):
+        """A trajectory is drawn whole, and from one period of the drive to the next, also where the magnet turns back."""
+        self.assertEqual(run("init", "--world", "wave", self.folder / "travels.yaml")[0], 0)
+        for words, hertz in ((("drive.waveform=oscillating",), 10.7), (("drive.waveform=chirp", "drive.chirp=5"), 10.7),
+                             (("drive.waveform=table", "drive.table=0:0 0.1:90 0.2:0"), 10.7),
+                             (("drive.waveform=carried", "drive.velocity[0]=0.01"), 10.7), (("drive.frequency=4",), 4)):
+            scene = (self.folder / "travels.yaml",) if hertz == 4 else ()
+            sets = [word for setting in (*words, "run.duration=0.6s", "run.discard=1", "run.samples=32") for word in ("--set", setting)]
+            told = run("run", *scene, *sets, "-o", self.folder / "drive.csv")
+            self.assertEqual(told[0], 0, told[2])
+            rows = read(self.folder / "drive.csv")
+            some = [row for row in rows if 0.5 - 1e-9 <= row["t"] / GAMMA * hertz <= 1.5 + 1e-9]
+            for options, shown in ((), rows), (("--from", 0.5, "--to", 1.5), some):
+                script, curves = self.plot(*options, name="drive.csv")
+                self.assertNotIn("anticlockwise", script)
+                (_, pieces), = curves["bead 0"]
+                for point, row in ((pieces[0][0], shown[0]), (pieces[-1][-1], shown[-1])):
+                    self.assertAlmostEqual(math.hypot(*point), 23 * math.hypot(row["X_0"], row["Y_0"]), delta=1e-3, msg=words)
 
     def test_refusals(self):
         self.refused("--colour does not belong to a trajectory of several beads", "--colour", "slip")
