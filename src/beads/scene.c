@@ -17,9 +17,7 @@ static double steps_per_turn(const fst_params *p, double otherwise)
 {
     if (isnan(p->run_step))
         return otherwise;
-    const double frequency =
-        isnan(p->drive_omega) ? p->drive_frequency : p->drive_omega * p->friction_gamma / FST_TWO_PI;
-    return p->run_step >= 1.0 ? p->run_step : 1.0 / (p->run_step * frequency);
+    return p->run_step >= 1.0 ? p->run_step : 1.0 / (p->run_step * fst_drive_frequency(p));
 }
 
 fst_status beads_of_scene(const fst_params *scene, const fst_beads_options *options, fst_params **beads,

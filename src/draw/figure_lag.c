@@ -63,8 +63,7 @@ static size_t put_points(const fst_beads_table *table, const fst_figure_part *pa
 {
     const fst_params *scene = &table->scene;
     const fst_scales scales = fst_scales_of(scene);
-    const double omega =
-        isnan(scene->drive_omega) ? 2.0 * FST_PI * scene->drive_frequency * scales.time : scene->drive_omega;
+    const double omega = FST_TWO_PI * fst_drive_frequency(scene) * scales.time;
     const double wave_number =
         scene->drive_waveform == FST_WAVEFORM_WAVE ? 2.0 * FST_PI * scales.length / scene->wave_length : 0.0;
     size_t count = 0;
@@ -124,6 +123,9 @@ fst_status fst_chart_of_lag(const fst_beads_table *table, const fst_figure_optio
     (void)snprintf(label, sizeof label, "its rate%s (%s)", strcmp(unit, "Hz") == 0 ? "/2π" : "", symbols);
     curves[0] = (fst_chart_curve){.x = x, .y = y, .colour = FST_COLOUR_BLUE};
     curves[0].count = put_points(table, &part, shown, x, y);
+    if (curves[0].count == 0)
+        return fst_fail(error, FST_BAD_INPUT, "fst_figure_options.kind",
+                        "the moment lies along the axis of the drive all the time, so that it has no lag");
     curves[1] = (fst_chart_curve){.title = "at the beginning",
                                   .x = x,
                                   .y = y,

@@ -272,9 +272,7 @@ static double write_frames(fst_figure_file *figure, const double *t, const doubl
 static fst_legend camera_legend(const fst_params *params)
 {
     fst_legend legend = {.count = 0};
-    const double hertz = isfinite(params->drive_omega)
-                             ? params->drive_omega * params->friction_gamma / FST_TWO_PI
-                             : params->drive_frequency;
+    const double hertz = fst_drive_frequency(params);
     (void)snprintf(legend.title, sizeof legend.title, "The path at %.3g Hz as a camera sees it", hertz);
     (void)snprintf(legend.about, sizeof legend.about, "%g frames a second for %d s, dynamics %s",
                    FRAMES_A_SECOND, CAMERA_SECONDS, fst_dynamics_name((fst_dynamics)params->model_dynamics));

@@ -114,17 +114,20 @@ void fst_sweep_words(const char *label, char words[128])
         *unit = '\0';
 }
 
-/* What is not the default, but for the axes, and the drive where that is one in either form. */
-static void add_caption(const fst_grid *grid, char *about, size_t size)
+/* The dynamics, and what of a point is not the default but for the axes.  A point, for in the base another form of what an
+ * axis gives may stand. */
+static void describe_points(const fst_grid *grid, char *text, size_t size)
 {
-    const char *shown[FST_AXIS_LIMIT + 2] = {"model.dynamics"};
+    const char *shown[FST_AXIS_LIMIT + 1] = {"model.dynamics"};
+    fst_params point;
     int count = 1;
-    for (int i = 0; i < fst_grid_axis_count(grid); ++i) {
+    for (int i = 0; i < fst_grid_axis_count(grid); ++i)
         shown[count++] = fst_grid_key(grid, i);
-        if (strcmp(fst_grid_key(grid, i), "drive.omega") == 0)
-            shown[count++] = "drive.frequency";
-    }
-    fst_caption(fst_grid_base(grid), shown, count, about, size);
+    if (fst_grid_params(grid, 0, &point, NULL) != FST_OK)
+        point = *fst_grid_base(grid);
+    if (!varies(grid, "model.dynamics"))
+        (void)snprintf(text, size, "dynamics %s", fst_dynamics_name((fst_dynamics)point.model_dynamics));
+    fst_caption(&point, shown, count, text, size);
 }
 
 void fst_sweep_about(const fst_sweep_table *table, char *about, size_t size)
@@ -132,13 +135,9 @@ void fst_sweep_about(const fst_sweep_table *table, char *about, size_t size)
     const fst_grid *grid = table->grid;
     const fst_params *base = fst_grid_base(grid);
     const size_t used = strlen(about);
-    (void)snprintf(about + used, size - used, "%s%s", used ? "; " : "",
-                   varies(grid, "model.dynamics") ? "" : "dynamics ");
-    if (!varies(grid, "model.dynamics"))
-        (void)snprintf(about + strlen(about), size - strlen(about), "%s",
-                       fst_dynamics_name((fst_dynamics)base->model_dynamics));
-    add_caption(grid, about, size);
-    (void)snprintf(about + strlen(about), size - strlen(about), "%s", strlen(about) > used ? ", " : "");
+    char what[200] = "";
+    describe_points(grid, what, sizeof what);
+    (void)snprintf(about + used, size - used, "%s%s%s", used ? "; " : "", what, what[0] ? ", " : "");
     const int64_t points = fst_grid_points(grid);
     const int whole = table->refine || table->rows == points;
     (void)snprintf(about + strlen(about), size - strlen(about), "%lld", (long long)table->rows);

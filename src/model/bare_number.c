@@ -18,18 +18,25 @@ int fst_param_is_bare(const char *text)
     return length > 0 && fst_number_length(trimmed) == length;
 }
 
-/* drive.omega has no unit, and no default of its own: the frequency that it stands for. */
-static double frequency_of(const fst_params *params)
+const char *fst_param_unit_meant(const fst_param_info *row, double value)
 {
-    return params->drive_omega * params->friction_gamma / (2 * FST_PI);
+    char text[64];
+    double there;
+    const char *unit = fst_unit_meant(row->unit, value, row->initial);
+    (void)snprintf(text, sizeof text, "%.17g %s", value, unit ? unit : "");
+    return unit && fst_parse_value(text, row->unit, &there, NULL) == FST_OK &&
+                   fst_param_check_range(row, there, NULL, "", NULL) == FST_OK
+               ? unit
+               : NULL;
 }
 
 static int is_unlikely(const fst_params *params, const fst_param_info *row)
 {
     if (strcmp(row->key, "drive.omega") == 0)
-        return frequency_of(params) > UNLIKELY_TURNS * fst_param_at(fst_param_find("drive.frequency"))->initial;
+        return fst_drive_frequency(params) >
+               UNLIKELY_TURNS * fst_param_at(fst_param_find("drive.frequency"))->initial;
     return row->kind == FST_KIND_REAL && fabs(fst_param_value(params, row)) > UNLIKELY * fabs(row->initial) &&
-           fst_unit_meant(row->unit, fst_param_value(params, row), row->initial);
+           fst_param_unit_meant(row, fst_param_value(params, row));
 }
 
 void fst_param_note_bare(fst_params *params, int index, const char *text)
@@ -53,9 +60,9 @@ int fst_params_bare_number(const fst_params *params, char *sentence, size_t size
                         "drive.omega = %.15g is an angular velocity in units of friction.gamma, here %.4g "
                         "turns a second; did "
                         "you mean drive.frequency = %.15g Hz?",
-                        value, frequency_of(params), value);
+                        value, fst_drive_frequency(params), value);
     return snprintf(sentence, size,
                     "%s = %.15g was read as %.15g %s, %.0f times the default; did you mean %.15g %s?", row->key,
                     value, value, fst_unit_name(row->unit), fabs(value / row->initial), value,
-                    fst_unit_meant(row->unit, value, row->initial));
+                    fst_param_unit_meant(row, value));
 }

@@ -40,6 +40,9 @@ fst_status fst_param_check_range(const fst_param_info *row, double value, const 
 /* Whether a field that a program filled in by hand is what fst_params_set() would have let pass. */
 fst_status fst_param_validate(const fst_params *params, const fst_param_info *row, fst_error *error);
 
+/* The unit in which a bare number would be nearer to the row's default, and within its range; NULL: there is none. */
+const char *fst_param_unit_meant(const fst_param_info *row, double value);
+
 /* Whether a text is a number without a unit; and note that the row `index` was set by this text, see
  * fst_params_bare_number(). */
 int fst_param_is_bare(const char *text);

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/watch.h"
 
 /* ------------------------------------------------------------------ columns */
 
@@ -245,43 +246,53 @@ static int is_whole(double turns)
     return fabs(turns - round(turns)) <= 1e-9 * fabs(turns);
 }
 
-fst_status fst_check_carried_worlds(const fst_grid *grid, fst_error *error)
+static const char CARRY[] = "fst_sweep_options.carry";
+
+/* Whether at the end of a run of this point all that changes with time is as at the start. */
+static fst_status check_carried(const fst_params *p, int64_t point, fst_error *error)
+{
+    const double periods = fst_run_periods(p);
+    const int steady = p->drive_waveform == FST_WAVEFORM_STEADY;
+    if (!steady && p->drive_waveform != FST_WAVEFORM_OSCILLATING && p->drive_waveform != FST_WAVEFORM_WAVE)
+        return fst_fail(error, FST_BAD_INPUT, CARRY,
+                        "this drive begins anew with every run, so that no run goes on from another: choose "
+                        "drive.waveform steady, oscillating or wave");
+    if ((!steady || fst_frame_of_world(p) == FST_FRAME_LABORATORY) && !is_whole(periods))
+        return fst_fail(
+            error, FST_BAD_INPUT, CARRY,
+            "after %.9g periods, at point %lld, the drive is not where a run begins: give run.periods, "
+            "a whole number, in place of run.duration",
+            periods, (long long)point);
+    for (int i = 0; i < p->coil_count; ++i)
+        if (p->coils[i].ac != 0 && !is_whole(p->coils[i].frequency * periods / fst_drive_frequency(p)))
+            return fst_fail(
+                error, FST_BAD_INPUT, CARRY,
+                "after %.9g periods of the drive, at point %lld, the current of coils[%d] is not where a "
+                "run begins: choose its frequency and run.periods so that it is",
+                periods, (long long)point, i);
+    return FST_OK;
+}
+
+fst_status fst_check_carried_worlds(const fst_grid *grid, const fst_progress *progress, fst_error *error)
 {
     static const char *const refused[][2] = {
         {"bead.radius", "where the bead touches the plate"}, {"model.eps", "where the bead touches the plate"},
         {"plate.bowl_radius", "where the bead touches it"},  {"plate.shape", "where the bead touches it"},
         {"wave.length", "the phase at every place"},         {"drive.waveform", "what moves the bead"}};
-    static const char WHERE[] = "fst_sweep_options.carry";
+    enum { ASK = 4096 }; /* points between two questions whether to go on */
     fst_params p;
+    fst_status status = FST_OK;
     for (size_t i = 0; i < sizeof refused / sizeof *refused; ++i)
         if (strcmp(fst_grid_key(grid, 0), refused[i][0]) == 0)
-            return fst_fail(error, FST_BAD_INPUT, WHERE, "%s changes %s, so a state cannot be carried along it",
+            return fst_fail(error, FST_BAD_INPUT, CARRY, "%s changes %s, so a state cannot be carried along it",
                             refused[i][0], refused[i][1]);
-    for (int64_t point = 0; point < fst_grid_points(grid); ++point) {
-        if (fst_grid_params(grid, point, &p, NULL) != FST_OK || !fst_key_of_world(&p))
-            continue; /* its row will say what is wrong */
-        const double periods = fst_run_periods(&p), hertz = p.drive_frequency;
-        const int steady = p.drive_waveform == FST_WAVEFORM_STEADY;
-        if (!steady && p.drive_waveform != FST_WAVEFORM_OSCILLATING && p.drive_waveform != FST_WAVEFORM_WAVE)
-            return fst_fail(
-                error, FST_BAD_INPUT, WHERE,
-                "this drive begins anew with every run, so that no run goes on from another: choose "
-                "drive.waveform steady, oscillating or wave");
-        if ((!steady || fst_frame_of_world(&p) == FST_FRAME_LABORATORY) && !is_whole(periods))
-            return fst_fail(
-                error, FST_BAD_INPUT, WHERE,
-                "after %.9g periods, at point %lld, the drive is not where a run begins: give run.periods, "
-                "a whole number, in place of run.duration",
-                periods, (long long)point);
-        for (int i = 0; i < p.coil_count; ++i)
-            if (p.coils[i].ac != 0 && !is_whole(p.coils[i].frequency * periods / hertz))
-                return fst_fail(
-                    error, FST_BAD_INPUT, WHERE,
-                    "after %.9g periods of the drive, at point %lld, the current of coils[%d] is not where a "
-                    "run begins: choose its frequency and run.periods so that it is",
-                    periods, (long long)point, i);
+    for (int64_t point = 0; point < fst_grid_points(grid) && status == FST_OK; ++point) {
+        if (fst_grid_params(grid, point, &p, NULL) == FST_OK && fst_key_of_world(&p))
+            status = check_carried(&p, point, error); /* of another point its row will say what is wrong */
+        if (status == FST_OK && point % ASK == ASK - 1)
+            status = fst_tell(progress, 0.0, NULL, error);
     }
-    return FST_OK;
+    return status;
 }
 
 fst_status fst_own_row(fst_row_kind kind, const fst_params *params, const double *start,

@@ -52,7 +52,7 @@ int fst_can_go_on(const fst_sweep_record *record);
 
 /* Whether runs of worlds can start where others ended: all that changes with time must then be as at the start, and the
  * first axis must not move the plate or the wave under the bead. */
-fst_status fst_check_carried_worlds(const fst_grid *grid, fst_error *error);
+fst_status fst_check_carried_worlds(const fst_grid *grid, const fst_progress *progress, fst_error *error);
 
 /* A name of a list by its place, an int; an int; an int64_t; a double. */
 typedef enum { FST_BEAD_NAME, FST_BEAD_INT, FST_BEAD_COUNT, FST_BEAD_REAL } fst_bead_column_kind;

@@ -439,8 +439,9 @@ static fst_status check_options(const fst_sweep_options *o, const fst_grid *grid
         (strcmp(key, "friction.gamma") == 0 || strcmp(key, "magnet.half_length") == 0))
         return fst_fail(error, FST_BAD_INPUT, "fst_sweep_options.carry",
                         "%s changes the units, so a state cannot be carried along it", key);
-    return kind == FST_ROWS_OF_WORLDS && o->carry != FST_CARRY_NO ? fst_check_carried_worlds(grid, error)
-                                                                  : FST_OK;
+    return kind == FST_ROWS_OF_WORLDS && o->carry != FST_CARRY_NO
+               ? fst_check_carried_worlds(grid, o->progress, error)
+               : FST_OK;
 }
 
 /* The part of rank 0, or of the only process: it has the journal. */

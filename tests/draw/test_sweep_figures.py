@@ -93,6 +93,23 @@ class Maps(Figures):
         self.assertIn("set xrange [0.75:2.25]\n", script)
         self.assertTrue(all(cell[2] < cell[3] and cell[4] < cell[5] for cell in cells))
 
+    def test_the_line_below_the_title_tells_of_the_points(self):
+        """What is not the default; not what an axis gives in another form, nor in this one."""
+        for axis, given, told, silent in (
+                ("model.eps=0.1,0.12", "bead.radius=3mm", None, "bead.radius"), ("drive.frequency=9,10", "drive.omega=0.3", None, "drive.omega"),
+                ("drive.omega=0.2,0.3", "drive.frequency=7", None, "drive.frequency"), ("magnet.depth=1cm,2cm", "model.h=0.5", None, "model.h"),
+                ("drive.frequency=9,10", "friction.law=rolling", "dynamics rigid, friction.law rolling, 2 runs", "friction.mu"),
+                ("drive.frequency=9,10", "model.kappa=1.25", "model.kappa 1.25, 2 runs", "drive"),
+                ("model.dynamics=rigid,farago2020", "model.kappa=1.25", "model.kappa 1.25, 2 runs", "model.dynamics"),
+                ("model.dynamics=rigid,farago2020", "run.samples=16", "2 runs", "; ,")):
+            name = self.path("c.db")
+            self.good("sweep", "--set", "run.periods=3", "--set", "run.discard=1", "--set", given, "--over", axis, "-o", name)
+            line = re.findall(r"set label '(.*?)' at [^\n]*textcolor rgb '#555555'", self.plot("c.db")[0])
+            os.remove(name)
+            self.assertNotIn(silent, " ".join(line), axis)
+            if told:
+                self.assertIn(told, " ".join(line))
+
     def test_both_signs_get_a_palette_about_zero(self):
         self.sweep("a.db", "drive.frequency=3Hz:20Hz:2", "model.kappa=1,2")
         script, cells = self.cells("a.db", "--key", "mean_alpha_dot")

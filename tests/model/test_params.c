@@ -451,6 +451,24 @@ static void bare_numbers_are_doubted(void **state)
     assert_true(doubted >= 4);
 }
 
+/* What would be refused as well is not proposed. */
+static void proposals_are_good(void **state)
+{
+    (void)state;
+    fst_params params = fst_default_params();
+    fst_error error = {FST_OK, "", ""};
+    static const char *const cases[][3] = {{"bead.radius", "3", "did you mean 3 mm?"},
+                                           {"bead.radius", "-3", NULL},
+                                           {"bead.radius", "1e9", NULL},
+                                           {"magnet.depth", "-8", NULL},
+                                           {"magnet.half_length", "23", "did you mean 23 mm?"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        assert_int_equal(fst_params_set(&params, cases[i][0], cases[i][1], &error), FST_BAD_INPUT);
+        assert_true(cases[i][2] ? strstr(error.sentence, cases[i][2]) != NULL
+                                : !strstr(error.sentence, "did you mean"));
+    }
+}
+
 static void bare_turns_a_minute_are_doubted(void **state)
 {
     (void)state;
@@ -477,6 +495,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bare_numbers_are_doubted),
+        cmocka_unit_test(proposals_are_good),
         cmocka_unit_test(bare_turns_a_minute_are_doubted),
         cmocka_unit_test(table_is_consistent),
         cmocka_unit_test(units_are_read),

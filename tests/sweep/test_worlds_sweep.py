@@ -164,6 +164,9 @@ class Sweeps(Case):
                             ((os.path.join(SCENES, "coils.yaml"), "--set", "coils[0].frequency=2.1", "--over", "coils[0].ac=1,2"), "current of coils[0]")):
             with self.subTest(said):
                 self.assertIn(said, self.refused("sweep", *words, "--carry", "up", "-o", name))
+        # 3 Hz, given as drive.omega: after a second the drive and coils of 2 Hz are where they began
+        self.good("sweep", os.path.join(SCENES, "coils.yaml"), "--set", f"drive.omega={2 * math.pi * 3 / 312.5!r}", "--over",
+                  "coils[0].ac=1,2", "--carry", "up", "-o", self.path("omega.db"))
         self.assertIn("no effect", self.refused("sweep", "--over", "plate.bowl_radius=1,2", "-o", name))
         failed = self.path("f.db")  # a point that cannot be has a row that says why
         self.good("sweep", scene, *SHORT, "--over", "plate.bowl_radius=2 mm,0.5 m", "-o", failed)
