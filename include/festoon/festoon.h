@@ -162,7 +162,7 @@ typedef struct fst_bead_params {
 enum { FST_BEADS_MOST = 8, FST_BEADS_MANY = 1000 };
 
 /* The library's own in fst_params: which of several forms of a quantity (fst_param_other_form()) was given. */
-enum { FST_FORMS = 16 };
+enum { FST_FORMS = 18 };
 typedef struct fst_params_notes {
     double seen[FST_FORMS]; /* what the fields of the forms held when the library last looked */
     int kappa_given;        /* whether model.kappa was given, also with the value that is its default */

@@ -11,8 +11,8 @@ from ._native import ffi, lib, text_of
 from ._quantities import UNITS, units_of
 from ._tables import COLUMNS
 
-#: Letters of a title in an inch of the figure.
-TITLE = 9
+#: Letters of a title in an inch of the figure, and of the line below it.
+TITLE, ABOUT = 9, 13
 GRID = "#e4e4e4"
 SOFT = "#555555"
 
@@ -185,10 +185,22 @@ def axes(ax: Any, width: float = 5.4, height: float = 4.2) -> Any:
     return pyplot().subplots(figsize=(width, height), layout="constrained")[1]
 
 
+def _broken(text: str, letters: int) -> str:
+    """Lines of no more letters, broken behind commas."""
+    lines: List[str] = []
+    for part in text.split(", "):
+        if lines and len(lines[-1]) + len(part) + 3 <= letters:
+            lines[-1] += ", " + part
+        else:
+            lines.append(part)
+    return ",\n".join(lines)
+
+
 def dress(ax: Any, title: str, about: str = "", x: str = "", y: str = "") -> None:
     """Title, what is known of the bead in small letters below it, labels and a faint grid."""
     title = "\n".join(textwrap.wrap(title, int(TITLE * ax.figure.get_figwidth())))
-    ax.set_title(title, fontsize=11, pad=19 if about else 6)
+    about = _broken(about, int(ABOUT * ax.figure.get_figwidth()))
+    ax.set_title(title, fontsize=11, pad=8 + 11 * len(about.splitlines()) if about else 6)
     if about:
         ax.annotate(
             about, (0.5, 1), xycoords="axes fraction", xytext=(0, 5), textcoords="offset points",

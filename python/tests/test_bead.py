@@ -41,7 +41,7 @@ def test_each_form_takes_the_place_of_the_other():
         other = lib.fst_param_other_form(key.encode())
         if other:
             pairs[key] = ffi.string(other).decode()
-    assert len(pairs) == 16
+    assert len(pairs) == 18
     value_of = {key: max(0.5, 2 * lib.fst_param_at(lib.fst_param_find(key.encode())).least) for key in pairs}
     for one, two in pairs.items():
         if "magnet.b0" in (one, two):

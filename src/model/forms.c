@@ -29,7 +29,8 @@ static const struct {
 } forms[] = {FORM(drive, omega),  FORM(drive, frequency), FORM(model, eps),       FORM(bead, radius),
              FORM(model, h),      FORM(magnet, depth),    FORM(model, lambda),    FORM(magnet, width),
              FORM(model, kappa),  FORM(magnet, b0),       FORM(contact, modulus), FORM(contact, radius),
-             FORM(bead, density), FORM(bead, mass),       FORM(bead, remanence),  FORM(bead, moment)};
+             FORM(bead, density), FORM(bead, mass),       FORM(bead, remanence),  FORM(bead, moment),
+             FORM(run, duration), FORM(run, periods)};
 enum { KAPPA = 8, B0, REMANENCE = 14, MOMENT, FORMS = FST_FORMS }; /* places in this table */
 _Static_assert(sizeof forms / sizeof *forms == FORMS, "a note for each form");
 

@@ -22,6 +22,9 @@
  * - Its own log only.  SQLite believes any log of the right name.  So every database bears a random mark, every
  * transaction writes the page with it (the table `seal`), and a log is checked before SQLite sees it (log.c).
  *
+ * - An empty log to begin with.  A process that was killed while it committed leaves pages behind the end of the
+ * log.  Shorter transactions after it would overwrite some of them, and the rest would look like damage.
+ *
  * - Rows that are checked.  When a sweep is continued, every row is read against its checksum.  If one is
  * damaged, check_rows() replaces the database by a new one with the sound rows (make.c), keeps the damaged file
  * under another name, and the lost points are computed again.
@@ -76,6 +79,20 @@ static int note_log(void *user, sqlite3 *database, const char *name, int pages)
     return SQLITE_OK;
 }
 
+enum { PATIENCE = 5000 };
+
+/* Write the log's pages into the file and cut the log to length zero.  A log that starts over without being cut
+ * would keep old frames behind its end, among which damage could not be told.  A reader that is busy for longer than
+ * these milliseconds puts this off. */
+static void empty_log(fst_journal *journal, int patience)
+{
+    sqlite3 *database = journal->file.database;
+    (void)sqlite3_busy_timeout(database, patience);
+    if (sqlite3_wal_checkpoint_v2(database, NULL, SQLITE_CHECKPOINT_TRUNCATE, NULL, NULL) == SQLITE_OK)
+        journal->log_pages = 0;
+    (void)sqlite3_busy_timeout(database, PATIENCE);
+}
+
 static fst_status prepare(fst_journal *journal, fst_error *error)
 {
     sqlite3 *database = journal->file.database;
@@ -87,6 +104,8 @@ static fst_status prepare(fst_journal *journal, fst_error *error)
             : "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL";
     fst_status status = fst_database_do(database, journal->path, mode, error);
     (void)sqlite3_wal_hook(database, note_log, journal);
+    if (status == FST_OK)
+        empty_log(journal, PATIENCE);
     char *insert = fst_sweep_insert_sql(journal->grid);
     char *state = fst_sweep_state_sql(journal->grid);
     if (status == FST_OK && (!insert || !state))
@@ -372,18 +391,6 @@ static fst_status check_place(fst_journal *journal, fst_error *error)
 
 enum { LOG_PAGES = 1000 };
 
-/* Write the log's pages into the file and cut the log to length zero.  A log that starts over without being cut
- * would keep old frames behind its end, among which damage could not be told.  A busy reader may put this off.
- */
-static void empty_log(fst_journal *journal)
-{
-    sqlite3 *database = journal->file.database;
-    (void)sqlite3_busy_timeout(database, 0);
-    if (sqlite3_wal_checkpoint_v2(database, NULL, SQLITE_CHECKPOINT_TRUNCATE, NULL, NULL) == SQLITE_OK)
-        journal->log_pages = 0;
-    (void)sqlite3_busy_timeout(database, 5000);
-}
-
 fst_status fst_journal_commit(fst_journal *journal, fst_error *error)
 {
     if (!journal->in_transaction)
@@ -391,7 +398,7 @@ fst_status fst_journal_commit(fst_journal *journal, fst_error *error)
     const fst_status status = fst_database_do(journal->file.database, journal->path, "COMMIT", error);
     journal->in_transaction = status != FST_OK && !sqlite3_get_autocommit(journal->file.database);
     if (status == FST_OK && journal->log_pages >= LOG_PAGES)
-        empty_log(journal);
+        empty_log(journal, 0);
     return status == FST_OK ? check_place(journal, error) : status;
 }
 

@@ -1,7 +1,7 @@
 /* Parameters: the table's consistency, values with units, what tells kappa, messages that name the
  * nearest valid thing, and independence of the locale.
- * tests: model/params.c model/param_field.c model/param_table.c model/material.c base/error.c base/nearest.c
- *   base/units.c */
+ * tests: model/params.c model/run_length.c model/param_field.c model/param_table.c model/material.c
+ *   base/error.c base/nearest.c base/units.c */
 #include "keys.h"
 #include "same_params.h"
 

@@ -15,6 +15,7 @@ import sys
 import time
 import unittest
 
+import events
 from sweep_tools import FESTOON, SHORT, SMALL, Case, change, content_of, festoon
 
 sys.path.append(os.path.join(os.environ["SOURCE_DIR"], "tests", "reliability"))
@@ -129,6 +130,23 @@ class Logs(Journal):
         self.assertEqual(self.rows("a.db"), expected)
         self.assertEqual(content_of(self.path("a.db.damaged-wal")), log)
 
+
+    def test_what_a_killed_commit_left_in_the_log_is_no_damage(self):
+        """Killed while it wrote many pages, begun again, and killed after it had written fewer."""
+        process, points = begin(self, "a.db")
+        process.kill()
+        process.communicate()
+        self.good("export", self.path("a.db"), "--csv")  # empties the log
+        log = self.log_of("a.db", self.CHANGES[1], "COMMIT", "BEGIN",
+                          "CREATE TABLE pages AS SELECT zeroblob(10000000)", self.CHANGES[1])
+        page = int.from_bytes(log[8:12], "big")
+        self.put("a.db-wal", log[:-24 - page])
+        seen = events.rows(self.path("a.db"))
+        process = events.start([FESTOON, "sweep", *long_sweep(points), "-o", self.path("a.db")])
+        events.wait_for(process, lambda: events.rows(self.path("a.db")) > seen)
+        process.kill()
+        process.communicate()
+        self.good("export", self.path("a.db"), "--csv")
 
     def test_a_read_that_fails_is_no_damage(self):
         """A single read fails: whichever it is, the file is not called damaged, and is not replaced."""
