@@ -297,6 +297,9 @@ typedef struct fst_sweep_options {
     const char *refine_by;
     double refine_step;
     int levitation; /* rows tell where the bead floats, fst_grid_ask_levitation(), and nothing is run */
+    /* Compute shard 1 to `shards` alone, in a database of its own, which no other shard goes on with: one of
+     * each `shards` points, or chains of carried points.  0 of 0: all.  A refined sweep has no shards. */
+    int shard, shards;
 } fst_sweep_options;
 FST_API fst_sweep_options fst_default_sweep_options(void);
 
@@ -313,6 +316,21 @@ FST_API fst_sweep_options fst_default_sweep_options(void);
  */
 FST_API fst_status fst_sweep(const fst_params *params, const char *path, const fst_sweep_options *options,
                              fst_sweep_counts *counts, fst_error *error);
+
+/* What fst_sweep_merge() made. */
+typedef struct fst_sweep_merged {
+    int64_t points, rows; /* of the grid, and of the new database */
+    char missing[240];    /* the points without a row: "3, 7-12 and 5 more" */
+    int damaged;          /* files of which rows are damaged, and were left out */
+} fst_sweep_merged;
+
+/* Join the shards of a sweep, whole or not, in a new database `out`, that of one sweep: the same fst_sweep() without
+ * a shard goes on with it.  The files are only read; they may overlap.  FST_BAD_INPUT: `out` is there already; no
+ * sweeps, or not of the same points under the same arithmetic, or refined ones; rows of a point that differ.  Then
+ * nothing is written.  Where rows are damaged it is FST_BAD_INPUT too, but the others were merged, and `damaged` is
+ * not 0. */
+FST_API fst_status fst_sweep_merge(const char *const *paths, int count, const char *out,
+                                   const fst_progress *progress, fst_sweep_merged *merged, fst_error *error);
 
 /* The scaled unit of a key of rows; "1" for a name or a pure number. */
 FST_API const char *fst_sweep_key_unit(const char *key);
@@ -340,7 +358,8 @@ typedef struct fst_sweep_table {
     double *values;
     unsigned char *computed; /* by point: 1 where there is a row */
     int64_t rows;
-    int refine; /* as in the options of the last fst_sweep() */
+    int refine;     /* as in the options of the last fst_sweep() */
+    int64_t wanted; /* the points that are to have a row, without refining: all, or those of a shard */
 } fst_sweep_table;
 FST_API fst_status fst_sweep_read(const char *path, const char *const *keys, int count, fst_sweep_table *table,
                                   fst_error *error);

@@ -25,9 +25,10 @@ typedef struct command {
 } command;
 
 /* The commands, a file each. */
-extern const command run_command, sweep_command, export_command, field_command, plot_command, movie_command,
-    paper_command, init_command, check_command, schema_command, orbit_command, locked_command, branch_command,
-    lyapunov_command, critical_command, measure_command, track_command, fit_command, lab_command;
+extern const command run_command, sweep_command, merge_command, export_command, field_command, plot_command,
+    movie_command, paper_command, init_command, check_command, schema_command, orbit_command, locked_command,
+    branch_command, lyapunov_command, critical_command, measure_command, track_command, fit_command,
+    lab_command;
 
 /* All of them, in the order of the help, with NULL behind the last; and the one of this name, or NULL. */
 extern const command *const all_commands[];

@@ -26,18 +26,18 @@ static fst_status export_keys(const arguments *given, const char *to, FILE *out,
     return status;
 }
 
-/* Say how many points of an interrupted sweep have a row. */
+/* Say how many points of a sweep that is not complete have a row. */
 static fst_status tell_of_missing(const char *path, fst_error *error)
 {
     char name[SHOWN_SIZE];
     fst_sweep_table table;
     const fst_status status = fst_sweep_read(path, NULL, 0, &table, error);
-    if (status == FST_OK && !table.refine && table.rows < fst_grid_points(table.grid))
+    if (status == FST_OK && !table.refine && table.rows < table.wanted)
         (void)fprintf(
             stderr,
             "festoon: %s: %lld of %lld points have a row, because the sweep was interrupted; the same "
             "command goes on\n",
-            shown(path, name), (long long)table.rows, (long long)fst_grid_points(table.grid));
+            shown(path, name), (long long)table.rows, (long long)table.wanted);
     if (status == FST_OK)
         fst_sweep_table_free(&table);
     return status;

@@ -22,7 +22,7 @@ typedef struct file_kind {
 static const char trajectory[] = "a trajectory", trajectory_takers[] = "plot|movie|measure|fit --track";
 
 static const file_kind kinds[] = {
-    {BYTES("SQLite format 3", 0), "the database of a sweep", "plot|export|sweep -o"},
+    {BYTES("SQLite format 3", 0), "the database of a sweep", "plot|export|merge|sweep -o"},
     {BYTES("# festoon trajectory", 0), trajectory, trajectory_takers},
     {BYTES("ftyp", 4), "a film", "track"},
     {BYTES("\x1a\x45\xdf\xa3", 0), "a film", "track"},

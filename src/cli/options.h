@@ -13,7 +13,7 @@ typedef struct option {
 } option;
 
 #define OPTION_LIMIT 256 /* the most options that are accepted */
-#define OPERAND_LIMIT 256
+#define OPERAND_LIMIT 4096
 
 typedef struct given_option {
     const option *row;

@@ -1,4 +1,5 @@
 /* sweep.c - festoon sweep: a run at every point of a grid, into a database. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "cli/command.h"
@@ -16,6 +17,8 @@ static const option options[] = {
      "compute every 2^N-th value of each LO:HI:COUNT first, then N times between where the regime changes"},
     {"refine-by", '\0', "KEY[:STEP]",
      "refine where KEY changes instead: regime, symmetry, or a number that changes by more than STEP"},
+    {"shard", '\0', "I/N",
+     "compute the I-th of N shares of the points, in a database of its own; festoon merge joins them"},
     {"levitation", '\0', NULL,
      "rows tell where the bead floats below and above the magnet (festoon locked), not what a run does"},
     {"threads", '\0', "N", "number of threads (as many as this process has processors)"},
@@ -55,6 +58,23 @@ static fst_status read_refining(const arguments *given, char key[64], fst_sweep_
     return status;
 }
 
+/* --shard I/N. */
+static fst_status read_shard(const arguments *given, fst_sweep_options *sweep, fst_error *error)
+{
+    const char *text = option_value(given, "shard");
+    int length = 0;
+    if (!text)
+        return FST_OK;
+    if (sscanf(text, "%*9[0-9]/%*9[0-9]%n", &length) == 0 && length > 0 && !text[length]) {
+        sweep->shard = atoi(text);
+        sweep->shards = atoi(strchr(text, '/') + 1);
+    }
+    if (sweep->shard >= 1 && sweep->shard <= sweep->shards)
+        return FST_OK;
+    return fail(error, FST_BAD_INPUT, "--shard", "\"%.40s\" must be I/N, the I-th of N shares, as in 2/8",
+                text);
+}
+
 static fst_status read_sweep(const arguments *given, const char **axes, char key[64], fst_sweep_options *sweep,
                              fst_error *error)
 {
@@ -77,6 +97,8 @@ static fst_status read_sweep(const arguments *given, const char **axes, char key
     sweep->lanes = (int)lanes;
     if (status == FST_OK)
         status = read_refining(given, key, sweep, error);
+    if (status == FST_OK)
+        status = read_shard(given, sweep, error);
     sweep->levitation = option_value(given, "levitation") != NULL;
     if (option_value(given, "portable"))
         sweep->arithmetic = FST_ARITHMETIC_PORTABLE;
@@ -162,8 +184,8 @@ static fst_status show(void *user, double fraction, const char *part, fst_error 
                               rate > 0 ? (double)(p->expected - p->computed) / rate : INFINITY, what, error);
 }
 
-static void print_sweep(FILE *out, const char *path, const fst_sweep_counts *p, int refined, int can_draw,
-                        int json)
+static void print_sweep(FILE *out, const char *path, const fst_sweep_counts *p, const fst_sweep_options *sweep,
+                        int can_draw, int json)
 {
     if (json) {
         (void)fprintf(
@@ -178,17 +200,21 @@ static void print_sweep(FILE *out, const char *path, const fst_sweep_counts *p, 
     }
     char name[SHOWN_SIZE];
     path = shown(path, name);
-    if (refined)
+    if (sweep->refine > 0)
         (void)fprintf(out, "%s: %lld points, %.3g %% of %lld", path, (long long)p->computed,
                       100.0 * (double)p->computed / (double)p->points, (long long)p->points);
     else
-        (void)fprintf(out, "%s: all %lld points", path, (long long)p->points);
+        (void)fprintf(out, "%s: all %lld points", path, (long long)p->computed);
+    if (sweep->shards > 1)
+        (void)fprintf(out, " of shard %d/%d", sweep->shard, sweep->shards);
     if (p->added < p->computed)
         (void)fprintf(out, ", %lld of them new", (long long)p->added);
     if (p->failed > 0)
         (void)fprintf(out, "; %lld runs failed, their rows say why", (long long)p->failed);
     (void)fprintf(out, " (%.3g s)\nfestoon export %s --csv prints the rows", p->seconds, path);
-    if (can_draw)
+    if (sweep->shards > 1)
+        (void)fputs(", festoon merge joins the shards", out);
+    else if (can_draw)
         (void)fprintf(out, ", festoon plot %s -o FIG.svg draws them", path);
     (void)fputc('\n', out);
 }
@@ -254,8 +280,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (status != FST_OK)
         return status;
     tell_of_undefined(path, sweep.refine_by, &shown.counts);
-    print_sweep(out, path, &shown.counts, sweep.refine > 0, shown.can_draw,
-                option_value(given, "json") != NULL);
+    print_sweep(out, path, &shown.counts, &sweep, shown.can_draw, option_value(given, "json") != NULL);
     return FST_OK;
 }
 

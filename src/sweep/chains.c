@@ -9,6 +9,10 @@
  *      |   o->o->o->o    chain 1
  *      |   o->o->o->o    chain 0
  *      +-------------->  first axis
+ *
+ * A shard of N has one of each N tasks that follow each other, another one each time: with 3 shards tasks 0, 5, 7, 9,
+ * 14 ... are the first one's.  So its points lie all over the grid, also where an axis has N values, and shards take
+ * about as long as each other.
  */
 #include "sweep/sweep.h"
 
@@ -40,7 +44,31 @@ int64_t fst_chain_place(const fst_sweep_identity *identity, int64_t point, int64
     return fst_chain_point(identity, *chain, index) == point ? index : count - 1 - index;
 }
 
+int fst_sweep_has_task(const fst_sweep_identity *identity, int64_t task)
+{
+    const int64_t shards = identity->shards;
+    return (task % shards + task / shards % shards) % shards == identity->shard;
+}
+
 int64_t fst_sweep_task_count(const fst_sweep_identity *identity)
 {
-    return identity->carry == FST_CARRY_NO ? fst_grid_points(identity->grid) : fst_chain_count(identity);
+    const int64_t all =
+        identity->carry == FST_CARRY_NO ? fst_grid_points(identity->grid) : fst_chain_count(identity);
+    const int64_t shards = identity->shards, rounds = all / shards;
+    const int64_t turn =
+        (identity->shard + shards - rounds % shards) % shards; /* when it has one in the last round */
+    return rounds + (turn < all % shards);
+}
+
+int64_t fst_sweep_point_count(const fst_sweep_identity *identity)
+{
+    return fst_sweep_task_count(identity) * (identity->carry == FST_CARRY_NO ? 1 : fst_chain_length(identity));
+}
+
+int fst_sweep_has_point(const fst_sweep_identity *identity, int64_t point)
+{
+    int64_t task = point;
+    if (identity->carry != FST_CARRY_NO)
+        (void)fst_chain_place(identity, point, &task);
+    return fst_sweep_has_task(identity, task);
 }

@@ -12,6 +12,7 @@
 #include "host/whole_file.h"
 #include "sweep/columns.h"
 #include "sweep/refined.h"
+#include "sweep/sweep.h"
 
 enum { MOST_KEYS = 256 };
 
@@ -143,7 +144,8 @@ static fst_status write_gap(const table_writer *w, int64_t from, int64_t to, fst
 {
     fst_status status = FST_OK;
     for (int64_t point = from; point < to && !w->is_refined && status == FST_OK; ++point)
-        status = write_point(w, point, NULL, error);
+        if (fst_sweep_has_point(&w->file.identity, point))
+            status = write_point(w, point, NULL, error);
     return status;
 }
 

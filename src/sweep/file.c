@@ -169,6 +169,8 @@ static fst_status open_once(const char *name, int locked, fst_sweep_file *file, 
     if (status == FST_OK)
         status = fst_identity_grid(&file->lines, name, &file->grid, error);
     if (status == FST_OK)
+        status = fst_identity_of(&file->lines, name, file->grid, &file->identity, error);
+    if (status == FST_OK)
         status = check_tables(file, error);
     const char *mark = fst_identity_text(&file->lines, "mark");
     if (status == FST_OK && (!mark || strcmp(mark, file->mark) != 0))
@@ -194,8 +196,8 @@ void fst_sweep_file_close(fst_sweep_file *file)
 {
     /* The last connection to close writes the log into the file and removes the log by its name, so the name
      * must still lead to this file. */
-    if (file->opened && file->log != FST_LOG_DAMAGED && !file->finding[0] &&
-        fst_lock_is_there(file->path, &file->there))
+    const int may_tidy = file->is_left ? file->log == FST_LOG_NONE : file->log != FST_LOG_DAMAGED;
+    if (file->opened && may_tidy && !file->finding[0] && fst_lock_is_there(file->path, &file->there))
         fst_database_allow_tidying(file->database);
     (void)sqlite3_close(file->database);
     fst_identity_free(&file->lines);

@@ -14,11 +14,13 @@ typedef struct fst_sweep_file {
     sqlite3 *database;
     fst_identity_lines lines;
     fst_grid *grid;
+    fst_sweep_identity identity;
     uint64_t seed; /* the checksums of rows begin with this */
     char mark[FST_MARK_SIZE];
     fst_log_state log;
     char finding[160]; /* what is wrong with the structure of the database; "": nothing */
     int opened;        /* all steps went well */
+    int is_left;       /* a log is left as it is when the file is closed */
 } fst_sweep_file;
 
 /* Open a database and check everything except its rows.  With `locked` the caller holds the lock of the file
@@ -46,6 +48,10 @@ typedef struct fst_lost_points {
     } ranges[FST_LOST_RANGES];
     int range_count; /* further ranges are only counted */
 } fst_lost_points;
+
+/* Add points behind those that are there; name them: "3, 7-12 and 5 more". */
+void fst_lost_points_add(fst_lost_points *lost, int64_t first, int64_t last);
+void fst_lost_points_name(const fst_lost_points *lost, char *text, size_t size);
 
 typedef struct fst_sweep_rows {
     const fst_sweep_file *file;

@@ -56,6 +56,9 @@ static void wanted_lines(const fst_sweep_identity *identity, fst_identity_lines 
     add_line(lines, "results_version", format_text("%d", results_version(identity->grid)));
     if (fst_grid_row_kind(identity->grid) == FST_ROWS_OF_LEVITATION) /* other rows follow from the scene */
         add_line(lines, "rows", strdup("levitation"));
+    if (identity->shards > 1)
+        add_line(lines, "shard",
+                 format_text("%lld/%lld", (long long)identity->shard + 1, (long long)identity->shards));
 }
 
 void fst_identity_free(fst_identity_lines *lines)
@@ -95,9 +98,24 @@ static fst_status read_scene(const fst_identity_lines *lines, const char *path, 
         version ? version : "(not told)", fst_version(), why.sentence);
 }
 
+/* Say what differs: `what` of the command, or of the other file. */
+static fst_status fail_differs(const char *path, const char *other, const char *what, const char *key,
+                               const char *there, const char *wanted, fst_error *error)
+{
+    if (other)
+        return fst_fail(error, FST_BAD_INPUT, path,
+                        "this sweep was made with %s %.120s, and %s with %.120s: they are no parts of one "
+                        "sweep; nothing was written",
+                        key, there, other, wanted);
+    return fst_fail(error, FST_BAD_INPUT, path,
+                    "this sweep was made with %s %.120s, not %.120s; it was left untouched: choose another "
+                    "file, or the same %s to go on with it",
+                    key, there, wanted, what);
+}
+
 /* Compare the parameters, whatever text they were written in, and say which one differs. */
 static fst_status compare_scene(const fst_identity_lines *lines, const char *path, const fst_params *wanted,
-                                fst_error *error)
+                                const char *other, fst_error *error)
 {
     fst_params made;
     const fst_status status = read_scene(lines, path, &made, error);
@@ -111,22 +129,35 @@ static fst_status compare_scene(const fst_identity_lines *lines, const char *pat
         /* The same content under another name is the same map. */
         if (strcmp(fst_param_at(i)->key, "magnet.file") == 0 && made.magnet_checksum[0])
             continue;
+        char key[64];
+        (void)snprintf(key, sizeof key, "%s =", fst_param_at(i)->key);
         if (strcmp(before, now) != 0)
-            return fst_fail(
-                error, FST_BAD_INPUT, path,
-                "this sweep was made with %s = %s, not %s; it was left untouched: choose another file, "
-                "or the same parameters to go on with it",
-                fst_param_at(i)->key, before[0] ? before : "(not given)", now[0] ? now : "(not given)");
+            return fail_differs(path, other, "parameters", key, before[0] ? before : "(not given)",
+                                now[0] ? now : "(not given)", error);
     }
     return FST_OK;
 }
 
+/* Whether the file is of the shard that is wanted. */
+static fst_status compare_shard(const fst_identity_lines *lines, const char *path,
+                                const fst_identity_lines *wanted, fst_error *error)
+{
+    const char *there = fst_identity_text(lines, "shard"), *here = fst_identity_text(wanted, "shard");
+    if (strcmp(there ? there : "", here ? here : "") == 0)
+        return FST_OK;
+    return fst_fail(error, FST_BAD_INPUT, path,
+                    "this is %s%.40s, not %s%.40s; it was left untouched: choose another file, or the same "
+                    "options to go on with it",
+                    there ? "shard " : "a whole sweep", there ? there : "", here ? "shard " : "the whole sweep",
+                    here ? here : "");
+}
+
 fst_status fst_identity_compare(const fst_identity_lines *lines, const char *path,
-                                const fst_sweep_identity *identity, fst_error *error)
+                                const fst_sweep_identity *identity, const char *other, fst_error *error)
 {
     fst_identity_lines wanted;
     wanted_lines(identity, &wanted);
-    fst_status status = FST_OK;
+    fst_status status = other ? FST_OK : compare_shard(lines, path, &wanted, error);
     if (fst_identity_text(lines, "rows") && !fst_identity_text(&wanted, "rows"))
         status =
             fst_fail(error, FST_BAD_INPUT, path,
@@ -140,13 +171,9 @@ fst_status fst_identity_compare(const fst_identity_lines *lines, const char *pat
                               "this sweep does not say its %s; it was left untouched: choose another file",
                               wanted.keys[i]);
         else if (strcmp(wanted.keys[i], "scene") == 0)
-            status = compare_scene(lines, path, fst_grid_base(identity->grid), error);
+            status = compare_scene(lines, path, fst_grid_base(identity->grid), other, error);
         else if (strcmp(there, wanted.values[i]) != 0)
-            status = fst_fail(
-                error, FST_BAD_INPUT, path,
-                "this sweep was made with %s %.120s, not %.120s; it was left untouched: choose another "
-                "file, or the same options to go on with it",
-                wanted.keys[i], there, wanted.values[i]);
+            status = fail_differs(path, other, "options", wanted.keys[i], there, wanted.values[i], error);
     }
     fst_identity_free(&wanted);
     return status;
@@ -289,4 +316,27 @@ fst_status fst_identity_grid(const fst_identity_lines *lines, const char *path, 
         return status;
     const fst_status made = fst_grid_new(&params, texts, count, strtoull(seed, NULL, 10), grid, error);
     return made == FST_OK && fst_identity_text(lines, "rows") ? fst_grid_ask_levitation(*grid, error) : made;
+}
+
+fst_status fst_identity_of(const fst_identity_lines *lines, const char *path, const fst_grid *grid,
+                           fst_sweep_identity *identity, fst_error *error)
+{
+    const char *seed = fst_identity_text(lines, "seed"), *carry = fst_identity_text(lines, "carry");
+    const char *arithmetic = fst_identity_text(lines, "arithmetic"), *shard = fst_identity_text(lines, "shard");
+    const char *fingerprint = fst_identity_text(lines, "fingerprint");
+    if (!seed || !carry || !arithmetic || !fingerprint)
+        return fail_damaged(path, error);
+    *identity = (fst_sweep_identity){grid,
+                                     strtoull(seed, NULL, 10),
+                                     (fst_carry)fst_name_place(carry, FST_WORDS(FST_CARRIES)),
+                                     (fst_arithmetic)fst_name_place(arithmetic, FST_WORDS(FST_ARITHMETICS)),
+                                     strtoull(fingerprint, NULL, 16),
+                                     0,
+                                     1};
+    if (!shard)
+        return FST_OK;
+    char *behind;
+    identity->shard = strtoll(shard, &behind, 10) - 1;
+    identity->shards = *behind == '/' ? strtoll(behind + 1, NULL, 10) : 0;
+    return identity->shard >= 0 && identity->shard < identity->shards ? FST_OK : fail_damaged(path, error);
 }

@@ -40,8 +40,13 @@ fst_status fst_identity_write(sqlite3 *database, const char *path, const fst_swe
 
 /* Compare with a wanted sweep.  FST_BAD_INPUT: another one; the sentence says what differs.  Scenes are
  * compared by their parameters, so a program that knows more keys goes on with an older sweep if these have
- * their defaults. */
+ * their defaults. `other` is the file whose sweep is wanted, of which this one may be another shard; NULL: it is
+ * that of a command. */
 fst_status fst_identity_compare(const fst_identity_lines *lines, const char *path,
-                                const fst_sweep_identity *identity, fst_error *error);
+                                const fst_sweep_identity *identity, const char *other, fst_error *error);
+
+/* The sweep of which the lines tell, over their grid.  FST_BAD_INPUT: they name no shard that can be. */
+fst_status fst_identity_of(const fst_identity_lines *lines, const char *path, const fst_grid *grid,
+                           fst_sweep_identity *identity, fst_error *error);
 
 #endif

@@ -54,6 +54,7 @@
 #include "sweep/lock.h"
 #include "sweep/make.h"
 #include "sweep/refined.h"
+#include "sweep/sweep.h"
 
 struct fst_journal {
     fst_sweep_file file;
@@ -171,7 +172,7 @@ static fst_status take_file(const char *name, const char *path, const fst_sweep_
             (void)nanosleep(&moment, NULL);
         status = fst_sweep_is_made(path)
                      ? take_existing(name, path, i == TRIES - 1, descriptor, error)
-                     : fst_sweep_make(name, path, identity, i == TRIES - 1, descriptor, error);
+                     : fst_sweep_make(name, path, identity, NULL, i == TRIES - 1, descriptor, error);
     }
     if (status == FST_OK && *descriptor < 0)
         status =
@@ -206,7 +207,7 @@ static fst_status open_taken(fst_journal *journal, const fst_sweep_identity *ide
          locked.st_dev != journal->file.there.st_dev))
         status = fst_fail(error, FST_IO, journal->path, "this file was replaced a moment ago: try again");
     if (status == FST_OK)
-        status = fst_identity_compare(&journal->file.lines, journal->path, identity, error);
+        status = fst_identity_compare(&journal->file.lines, journal->path, identity, NULL, error);
     if (status == FST_OK)
         status = check_rows(journal, identity, error);
     if (status == FST_OK)
@@ -425,8 +426,9 @@ fst_status fst_journal_missing(fst_journal *journal, int64_t *next, int64_t *poi
     int code = sqlite3_step(journal->next);
     while (*next < end && *found < room && (code == SQLITE_ROW || code == SQLITE_DONE)) {
         const int64_t there = code == SQLITE_ROW ? sqlite3_column_int64(journal->next, 0) : end;
-        while (*next < there && *next < end && *found < room)
-            points[(*found)++] = (*next)++;
+        for (; *next < there && *next < end && *found < room; ++*next)
+            if (fst_sweep_has_point(&journal->file.identity, *next))
+                points[(*found)++] = *next;
         if (*next == there && *next < end) {
             ++*next;
             code = sqlite3_step(journal->next);

@@ -18,7 +18,8 @@ typedef struct fst_sweep_identity {
     uint64_t seed;
     fst_carry carry;
     fst_arithmetic arithmetic;
-    uint64_t fingerprint; /* of a short fixed run in this arithmetic (fingerprint.c) */
+    uint64_t fingerprint;  /* of a short fixed run in this arithmetic (fingerprint.c) */
+    int64_t shard, shards; /* which share of the tasks it has (chains.c); 0 of 1: all */
 } fst_sweep_identity;
 
 /* A hash of everything that must be the same for rows to belong into one database. */
@@ -61,7 +62,7 @@ fst_status fst_journal_commit(fst_journal *journal, fst_error *error);
 /* The number of rows. */
 fst_status fst_journal_count(fst_journal *journal, int64_t *rows, fst_error *error);
 
-/* Find at most `room` points without a row, beginning at *next. *next moves behind the last point looked at; it
+/* Find at most `room` points of the sweep, or of its shard, without a row, beginning at *next. *next moves behind the last point looked at; it
  * is the number of points when all were looked at. */
 fst_status fst_journal_missing(fst_journal *journal, int64_t *next, int64_t *points, int room, int *found,
                                fst_error *error);

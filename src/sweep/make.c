@@ -30,36 +30,62 @@ int fst_sweep_is_made(const char *path)
 
 /* ------------------------------------------------------------------ filling */
 
-/* Copy the sound rows of another database of the same sweep, with checksums of the new one. */
-static fst_status copy_rows(sqlite3 *database, const char *name, const fst_sweep_file *from, uint64_t seed,
-                            fst_error *error)
+/* Whether the row of a point there has this checksum. */
+static fst_status compare_sum(sqlite3 *database, const char *name, int64_t point, sqlite3_int64 sum, int *same,
+                              fst_error *error)
 {
-    const int count = fst_sweep_column_count(from->grid);
-    char *sql = fst_sweep_insert_sql(from->grid);
-    sqlite3_stmt *insert = NULL;
-    fst_sweep_rows rows;
-    int more = 0;
-    fst_status status = fst_sweep_rows_begin(&rows, from, error);
-    if (status == FST_OK && (!sql || sqlite3_prepare_v2(database, sql, -1, &insert, NULL) != SQLITE_OK))
+    sqlite3_stmt *query = NULL;
+    int code = sqlite3_prepare_v2(database, "SELECT checksum FROM rows WHERE point = ?", -1, &query, NULL);
+    if (code == SQLITE_OK && (code = sqlite3_bind_int64(query, 1, point)) == SQLITE_OK)
+        code = sqlite3_step(query);
+    *same = code == SQLITE_ROW && sqlite3_column_int64(query, 0) == sum;
+    const fst_status status = code == SQLITE_ROW ? FST_OK : fst_database_fail(database, name, error);
+    (void)sqlite3_finalize(query);
+    return status;
+}
+
+/* Copy the row that was read last, with a checksum of the new database; *same is 0 where there is another one. */
+static fst_status copy_row(const fst_sweep_rows *rows, sqlite3_stmt *insert, const char *name, uint64_t seed,
+                           int *same, fst_error *error)
+{
+    sqlite3 *database = sqlite3_db_handle(insert);
+    const int count = fst_sweep_column_count(rows->file->grid);
+    const sqlite3_int64 sum = (sqlite3_int64)fst_sweep_row_checksum(rows->row, count, seed);
+    int code = SQLITE_OK;
+    *same = 1;
+    for (int i = 0; i < count && code == SQLITE_OK; ++i)
+        code = sqlite3_bind_value(insert, i + 1, sqlite3_column_value(rows->row, i));
+    (void)sqlite3_bind_int64(insert, count + 1, sum);
+    fst_status status = FST_OK;
+    if (code != SQLITE_OK || sqlite3_step(insert) != SQLITE_DONE)
         status = fst_database_fail(database, name, error);
-    while (status == FST_OK && (status = fst_sweep_rows_next(&rows, &more, error)) == FST_OK && more) {
-        int code = SQLITE_OK;
-        for (int i = 0; i < count && code == SQLITE_OK; ++i)
-            code = sqlite3_bind_value(insert, i + 1, sqlite3_column_value(rows.row, i));
-        (void)sqlite3_bind_int64(insert, count + 1,
-                                 (sqlite3_int64)fst_sweep_row_checksum(rows.row, count, seed));
-        if (code != SQLITE_OK || sqlite3_step(insert) != SQLITE_DONE)
-            status = fst_database_fail(database, name, error);
-        (void)sqlite3_reset(insert);
+    else if (sqlite3_changes(database) == 0)
+        status = compare_sum(database, name, rows->next - 1, sum, same, error);
+    (void)sqlite3_reset(insert);
+    return status;
+}
+
+fst_status fst_sweep_copy_rows(fst_sweep_rows *rows, sqlite3 *database, const char *name, uint64_t seed,
+                               int64_t *differs, fst_error *error)
+{
+    char *sql = fst_sweep_insert_sql(rows->file->grid);
+    sqlite3_stmt *insert = NULL;
+    int more = 0, same = 1;
+    fst_status status = FST_OK;
+    *differs = -1;
+    if (!sql || sqlite3_prepare_v2(database, sql, -1, &insert, NULL) != SQLITE_OK)
+        status = fst_database_fail(database, name, error);
+    while (status == FST_OK && (status = fst_sweep_rows_next(rows, &more, error)) == FST_OK && more) {
+        status = copy_row(rows, insert, name, seed, &same, error);
+        *differs = same ? *differs : rows->next - 1;
     }
     (void)sqlite3_finalize(insert);
-    fst_sweep_rows_end(&rows);
     free(sql);
     return status;
 }
 
 static fst_status write_all(sqlite3 *database, const char *name, const fst_sweep_identity *identity,
-                            const fst_sweep_file *from, fst_error *error)
+                            const fst_sweep_filling *filling, fst_error *error)
 {
     char mark[FST_MARK_SIZE];
     fst_status status = fst_mark_make(mark, error);
@@ -75,10 +101,10 @@ static fst_status write_all(sqlite3 *database, const char *name, const fst_sweep
     if (status == FST_OK)
         status = fst_identity_write(database, name, identity, mark, error);
     fst_identity_lines lines = {.count = 0};
-    if (status == FST_OK && from)
+    if (status == FST_OK && filling)
         status = fst_identity_read(database, name, &lines, error);
-    if (status == FST_OK && from)
-        status = copy_rows(database, name, from, fst_identity_checksum(&lines), error);
+    if (status == FST_OK && filling)
+        status = filling->fill(filling->user, database, fst_identity_checksum(&lines), error);
     if (status == FST_OK)
         status = fst_database_do(database, name, "COMMIT", error);
     fst_identity_free(&lines);
@@ -88,14 +114,14 @@ static fst_status write_all(sqlite3 *database, const char *name, const fst_sweep
 }
 
 static fst_status fill(const char *file, const char *name, const fst_sweep_identity *identity,
-                       const fst_sweep_file *from, fst_error *error)
+                       const fst_sweep_filling *filling, fst_error *error)
 {
     sqlite3 *database = NULL;
     fst_status status = FST_OK;
     if (sqlite3_open_v2(file, &database, SQLITE_OPEN_READWRITE, NULL) != SQLITE_OK)
         status = fst_database_fail(database, name, error);
     if (status == FST_OK)
-        status = write_all(database, name, identity, from, error);
+        status = write_all(database, name, identity, filling, error);
     if (sqlite3_close(database) != SQLITE_OK && status == FST_OK)
         status = fst_fail(error, FST_IO, name, "closing the new database failed");
     return status;
@@ -114,7 +140,7 @@ static char *part_name(const char *path)
 
 /* Make the new file: locked, filled and synced.  *descriptor is -1 where another command is making it. */
 static fst_status make_part(const char *name, const char *part, const fst_sweep_identity *identity,
-                            const fst_sweep_file *from, int last, int *descriptor, fst_error *error)
+                            const fst_sweep_filling *filling, int last, int *descriptor, fst_error *error)
 {
     fst_status status = part ? fst_lock_open(name, part, 1, last, descriptor, error)
                              : fst_fail(error, FST_NO_MEMORY, name, "out of memory");
@@ -123,7 +149,7 @@ static fst_status make_part(const char *name, const char *part, const fst_sweep_
     if (ftruncate(*descriptor, 0) != 0)
         status = fst_fail(error, FST_IO, name, "writing this file failed: %s", strerror(errno));
     if (status == FST_OK)
-        status = fill(part, name, identity, from, error);
+        status = fill(part, name, identity, filling, error);
     if (status == FST_OK && fsync(*descriptor) != 0)
         status = fst_fail(error, FST_IO, name, "writing this file failed: %s", strerror(errno));
     return status;
@@ -170,11 +196,11 @@ static fst_status give_name(const char *name, const char *path, const char *part
                   : FST_OK;
 }
 
-fst_status fst_sweep_make(const char *name, const char *path, const fst_sweep_identity *identity, int last,
-                          int *descriptor, fst_error *error)
+fst_status fst_sweep_make(const char *name, const char *path, const fst_sweep_identity *identity,
+                          const fst_sweep_filling *filling, int last, int *descriptor, fst_error *error)
 {
     char *part = part_name(path);
-    fst_status status = make_part(name, part, identity, NULL, last, descriptor, error);
+    fst_status status = make_part(name, part, identity, filling, last, descriptor, error);
     const int is_faster = *descriptor >= 0 && fst_sweep_is_made(path); /* another command was */
     if (status == FST_OK && *descriptor >= 0 && !is_faster)
         status = give_name(name, path, part, error);
@@ -211,13 +237,26 @@ static fst_status keep_damaged(const char *name, const char *path, fst_error *er
                   : FST_OK;
 }
 
+static fst_status fill_from(void *user, sqlite3 *database, uint64_t seed, fst_error *error)
+{
+    const fst_sweep_file *damaged = user;
+    fst_sweep_rows rows;
+    int64_t differs;
+    fst_status status = fst_sweep_rows_begin(&rows, damaged, error);
+    if (status == FST_OK)
+        status = fst_sweep_copy_rows(&rows, database, damaged->name, seed, &differs, error);
+    fst_sweep_rows_end(&rows);
+    return status;
+}
+
 fst_status fst_sweep_repair(fst_sweep_file *damaged, const fst_sweep_identity *identity, int *descriptor,
                             fst_error *error)
 {
     int repaired = -1;
     const char *name = damaged->name;
     char *path = strdup(damaged->path), *part = path ? part_name(path) : NULL;
-    fst_status status = make_part(name, part, identity, damaged, 1, &repaired, error);
+    const fst_sweep_filling sound = {fill_from, damaged};
+    fst_status status = make_part(name, part, identity, &sound, 1, &repaired, error);
     fst_sweep_file_close(damaged);
     if (status == FST_OK)
         status = keep_damaged(name, path, error);

@@ -15,7 +15,7 @@
  * the next readable row takes longer and longer steps. */
 enum { PATIENCE = 4096 };
 
-static void lose(fst_lost_points *lost, int64_t first, int64_t last)
+void fst_lost_points_add(fst_lost_points *lost, int64_t first, int64_t last)
 {
     lost->count += last - first + 1;
     const int i = lost->range_count - 1;
@@ -66,7 +66,7 @@ static int pass_damage(fst_sweep_rows *rows)
     int code = SQLITE_CORRUPT;
     for (int failures = 1; fst_database_is_damage(code) && rows->next < end; ++failures) {
         const int64_t last = rows->next + step <= end ? rows->next + step - 1 : end - 1;
-        lose(&rows->lost, rows->next, last);
+        fst_lost_points_add(&rows->lost, rows->next, last);
         rows->next = last + 1;
         code = rows->next < end ? seek(rows, rows->next) : SQLITE_DONE;
         step = failures < PATIENCE ? 1 : 2 * step;
@@ -98,7 +98,7 @@ fst_status fst_sweep_rows_next(fst_sweep_rows *rows, int *more, fst_error *error
             *more = 1;
             return FST_OK;
         }
-        lose(&rows->lost, point, point);
+        fst_lost_points_add(&rows->lost, point, point);
     }
 }
 
@@ -108,8 +108,7 @@ int fst_sweep_rows_are_whole(const fst_sweep_rows *rows)
            !rows->file->finding[0];
 }
 
-/* Name the lost points: "3, 7-12 and 5 more". */
-static void name_points(const fst_lost_points *lost, char *text, size_t size)
+void fst_lost_points_name(const fst_lost_points *lost, char *text, size_t size)
 {
     size_t used = 0;
     text[0] = '\0';
@@ -129,7 +128,7 @@ fst_status fst_sweep_rows_fail(const fst_sweep_rows *rows, const char *others, f
 {
     char points[240], what[300] = "";
     const fst_sweep_file *file = rows->file;
-    name_points(&rows->lost, points, sizeof points);
+    fst_lost_points_name(&rows->lost, points, sizeof points);
     if (rows->lost.count > 0)
         (void)snprintf(what, sizeof what,
                        rows->lost.count == 1 ? "the row of point %s is lost"

@@ -91,9 +91,10 @@ static double fraction_done(sweep *s)
 static void count_points(sweep *s)
 {
     fst_sweep_counts *c = s->counts;
-    const fst_refinement_counts refined = s->refinement
-                                              ? fst_refinement_count(s->refinement)
-                                              : (fst_refinement_counts){c->points, c->there, c->points, 0};
+    const fst_refinement_counts refined =
+        s->refinement ? fst_refinement_count(s->refinement)
+                      : (fst_refinement_counts){fst_sweep_point_count(&s->identity), c->there,
+                                                fst_sweep_point_count(&s->identity), 0};
     c->wanted = refined.wanted;
     c->computed = refined.known;
     c->expected = refined.expected;
@@ -164,6 +165,8 @@ static fst_status look_for_tasks(sweep *s, fst_sweep_task *fresh, int room, int 
     }
     for (; s->next < fst_chain_count(&s->identity) && *found < room && status == FST_OK; ++s->next) {
         int is_open;
+        if (!fst_sweep_has_task(&s->identity, s->next))
+            continue;
         status = resume_chain(s, s->next, &fresh[*found], &is_open, error);
         *found += status == FST_OK && is_open;
     }
@@ -444,6 +447,29 @@ static fst_status check_options(const fst_sweep_options *o, const fst_grid *grid
                : FST_OK;
 }
 
+/* Which shard it is, if it is one. */
+static fst_status take_shard(const fst_sweep_options *o, fst_sweep_identity *identity, fst_error *error)
+{
+    static const char where[] = "fst_sweep_options.shard";
+    if (o->shard == 0 && o->shards == 0)
+        return FST_OK;
+    if (o->shard < 1 || o->shard > o->shards)
+        return fst_fail(error, FST_BAD_INPUT, where,
+                        "%d of %d is no shard: they are counted from 1 to their number", o->shard, o->shards);
+    if (o->refine != 0)
+        return fst_fail(error, FST_BAD_INPUT, where,
+                        "a refined sweep has no shards, because which points it computes follows from the rows "
+                        "around them: compute it with more threads, or by MPI");
+    const int64_t tasks = fst_sweep_task_count(identity);
+    if (o->shards > tasks)
+        return fst_fail(error, FST_BAD_INPUT, where, "this sweep has only %lld %s to be shared by %d shards",
+                        (long long)tasks, o->carry == FST_CARRY_NO ? "points" : "chains of carried states",
+                        o->shards);
+    identity->shard = o->shard - 1;
+    identity->shards = o->shards;
+    return FST_OK;
+}
+
 /* The part of rank 0, or of the only process: it has the journal. */
 static fst_status lead(sweep *s, const char *path, fst_error *error)
 {
@@ -467,7 +493,7 @@ static fst_status lead(sweep *s, const char *path, fst_error *error)
     fst_error silence;
     const fst_status shared = fst_ranks_share_start(&s->ranks, &start, status == FST_OK ? error : &silence);
     status = status == FST_OK ? shared : status;
-    if (status == FST_OK && (s->counts->there < s->counts->points || s->refinement || s->ranks.link))
+    if (status == FST_OK && (s->counts->there < s->counts->wanted || s->refinement || s->ranks.link))
         status = work(s, error);
     count_points(s);
     if (status == FST_OK && s->checkpoints)
@@ -533,12 +559,14 @@ fst_status fst_sweep(const fst_params *params, const char *path, const fst_sweep
         status = fst_grid_ask_levitation(grid, error);
     const fst_arithmetic arithmetic =
         fst_grid_row_kind(grid) == FST_ROWS_OF_RUNS ? options->arithmetic : FST_ARITHMETIC_PORTABLE;
-    sweep s = {.identity = {grid, options->seed, options->carry, arithmetic, 0},
+    sweep s = {.identity = {grid, options->seed, options->carry, arithmetic, 0, 0, 1},
                .options = options,
                .counts = counts,
                .ranks = {.count = 1, .neighbours = 1}};
     if (status == FST_OK)
         status = check_options(options, grid, error);
+    if (status == FST_OK)
+        status = take_shard(options, &s.identity, error);
     if (status == FST_OK)
         status = fst_refining_of(options, &s.refining, error);
     if (status == FST_OK && options->refine != 0)

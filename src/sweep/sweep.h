@@ -19,8 +19,13 @@ int64_t fst_chain_length(const fst_sweep_identity *identity);
 int64_t fst_chain_point(const fst_sweep_identity *identity, int64_t chain, int64_t place);
 int64_t fst_chain_place(const fst_sweep_identity *identity, int64_t point, int64_t *chain);
 
-/* The number of tasks of the whole sweep. */
+/* Whether a task, a point or a chain, is one of the sweep, or of its shard; and the number of these. */
+int fst_sweep_has_task(const fst_sweep_identity *identity, int64_t task);
 int64_t fst_sweep_task_count(const fst_sweep_identity *identity);
+
+/* Points that are to have a row: all, or those of the shard; and whether a point is one of them. */
+int64_t fst_sweep_point_count(const fst_sweep_identity *identity);
+int fst_sweep_has_point(const fst_sweep_identity *identity, int64_t point);
 
 /* A hash of a short fixed run: a machine or build on which it differs computes other bits. */
 fst_status fst_arithmetic_fingerprint(fst_arithmetic arithmetic, int lanes, uint64_t *fingerprint,

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "sweep/columns.h"
 #include "sweep/refined.h"
+#include "sweep/sweep.h"
 
 fst_status fst_sweep_read_grid(const char *path, fst_grid **grid, fst_error *error)
 {
@@ -73,6 +74,7 @@ fst_status fst_sweep_read(const char *path, const char *const *keys, int count, 
         status = fst_refining_read(&file.lines, path, &refining, error);
     if (status == FST_OK) {
         table->refine = refining.levels;
+        table->wanted = fst_sweep_point_count(&file.identity);
         table->grid = file.grid;
         status = read_values(&file, keys, count, table, error);
         file.grid = status == FST_OK ? NULL : file.grid;

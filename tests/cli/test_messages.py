@@ -71,7 +71,7 @@ class Files(Case):
         kinds = {
             "t.h5": "this is a trajectory; festoon plot, movie, measure or fit --track reads it",
             "t.csv": "this is a trajectory; festoon plot, movie, measure or fit --track reads it",
-            "s.db": "this is the database of a sweep; festoon plot, export or sweep -o reads it",
+            "s.db": "this is the database of a sweep; festoon plot, export, merge or sweep -o reads it",
             "b.json": "this is a branch; festoon plot reads it",
             "r.json": "this is a document of festoon run --json; festoon plot --runs reads it",
             "rows.csv": "this is what festoon export wrote of a sweep",

@@ -62,6 +62,10 @@ class SameRows(RankCase):
         self.good("sweep", *words, "-o", self.path("alone.db"))
         self.sweep(3, "many.db", *words)
         self.assertEqual(self.rows("many.db"), self.rows("alone.db"))
+        for i in ("1", "2"):  # a shard may have ranks, and has whole chains
+            self.assertEqual(self.sweep(2, f"{i}.db", *words, "--shard", f"{i}/2").count("points of shard"), 1)
+        self.good("merge", self.path("1.db"), self.path("2.db"), "-o", self.path("merged.db"))
+        self.assertEqual(self.rows("merged.db"), self.rows("alone.db"))
 
     def test_ranks_go_on_with_what_one_process_began(self):
         self.good("sweep", *SMALL, "-o", self.path("a.db"))
