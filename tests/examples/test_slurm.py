@@ -1,4 +1,4 @@
-"""examples/sweep-slurm.sbatch under a Slurm of its own on this machine: controller, node and authentication.
+"""examples/sweep-slurm.sbatch and sweep-array.sbatch under a Slurm of its own on this machine: controller, node and authentication.
 
 Needs root and Debian's slurmctld, slurmd, slurm-client and munge, but no systemd; skipped otherwise.  Environment:
 FESTOON is the program, SOURCE_DIR the source tree.
@@ -99,8 +99,8 @@ class Slurm(Case):
     def wait_for_jobs(self, seconds=events.HANG):
         self.wait_until(lambda: not self.run_tool("squeue", "-h").strip(), seconds)
 
-    def log(self, job):
-        with open(self.path(f"festoon-sweep-{job}.log"), encoding="utf-8") as file:
+    def content(self, name):
+        with open(self.path(name), encoding="utf-8") as file:
             return file.read()
 
     def test_a_cancelled_job_goes_on(self):
@@ -112,18 +112,30 @@ class Slurm(Case):
             self.run_tool("scancel", job)
             self.wait_for_jobs()
             first = events.rows(path)
-            self.assertGreater(first, 0, self.log(job))
+            self.assertGreater(first, 0, self.content(f"festoon-sweep-{job}.log"))
             if first == points:
                 return False  # the job was over before
             job = self.submit(size)
             self.wait_for_jobs()
-            self.assertIn(f"all {points} points, {points - first} of them new", self.log(job))
+            self.assertIn(f"all {points} points, {points - first} of them new", self.content(f"festoon-sweep-{job}.log"))
             self.good("sweep", "--set", "run.periods=200", "--set", "run.discard=100", "--over",
                       f"drive.frequency=1Hz:40Hz:{size}", "--over", f"model.kappa=0.1:3:{size}", "-o",
                       self.path(f"alone{size}.db"))
             self.assertEqual(self.rows(f"{size}.db"), self.rows(f"alone{size}.db"))
             return True
         events.struck(blow, 16, factor=2)
+
+
+    def test_a_job_array(self):
+        script, words = SCRIPT.replace("-slurm", "-array"), ["3", "4"]
+        self.run_tool("sbatch", "--array=1-3", script, *words)
+        self.wait_for_jobs()
+        names = [self.path(f"sweep-array-{i}.db") for i in (1, 2, 3)]
+        self.assertIn("all 16 points", self.good("merge", *names, "-o", self.path("all.db")))
+        self.run_tool("sbatch", "--array=2", script, *words)  # again, alone
+        self.wait_for_jobs()
+        logs = [self.content(name) for name in os.listdir(self.directory) if name.startswith("festoon-shards-")]
+        self.assertEqual(sum("of shard 2/3, 0 of them new" in log for log in logs), 1, logs)
 
 
 if __name__ == "__main__":
