@@ -24,6 +24,10 @@
 /* Lines that a film may have folded are sought up to here: stirrers turn no faster, patterns have no more. */
 #define GREATEST_DRIVE 30.0
 #define MOST_FESTOONS 40.0
+/* No bead goes round faster than this with a magnet that is not known. */
+#define FASTEST_BEAD 12.0
+
+enum { ALIASES_SIZE = FST_WARNING_SIZE / 3 };
 
 void measure_warn(fst_measurement *measured, const char *format, ...)
 {
@@ -81,6 +85,71 @@ static match best_match(const measure_work *work, double drive, int filmed)
     return best;
 }
 
+/* ---------------------------------------------------------------- what else may a line be? */
+
+/* The frequency that the film would show as that of the strongest line, by the n-th folding. */
+static double unfolded(const measure_work *work, int n)
+{
+    return n % 2 ? (n + 1) / 2 * work->fps - work->peak : n / 2 * work->fps + work->peak;
+}
+
+/* The most that festoons oscillate with: without a clock their number alone is bounded. */
+static double most_of_lines(const measure_work *work, double greatest_drive)
+{
+    const double bead = fabs(work->bead), most = MOST_FESTOONS * bead;
+    return isfinite(work->track->fps) ? fmin(most, 2.0 * (greatest_drive + bead)) : most;
+}
+
+/* The greatest frequency up to `most` that the film may show as the strongest line; of none, `most`. */
+static double fastest_line(const measure_work *work, double most)
+{
+    double fastest = work->peak > 0 ? work->peak : most;
+    for (int n = 1; work->peak > 0 && unfolded(work, n) <= most; ++n)
+        fastest = unfolded(work, n);
+    return fastest;
+}
+
+/* What else the line may be, if the film folded it: the drive would be another one, and so would the number of
+ * festoons.  Nothing in the film tells the readings apart, so none of them is a result. */
+static int list_aliases(const measure_work *work, char others[ALIASES_SIZE])
+{
+    const double bead = fabs(work->bead), most = most_of_lines(work, GREATEST_DRIVE);
+    const int timed = isfinite(work->track->fps);
+    size_t length = 0;
+    others[0] = '\0';
+    for (int n = 1; unfolded(work, n) <= most; ++n)
+        for (int of = 1; of <= 2; ++of) {
+            const double line = unfolded(work, n), festoons = line / bead, drive = line / of - bead;
+            /* Twice the line of S1 may be its strongest. */
+            if (festoons < of * LEAST_FESTOONS || festoons > (of == 1 ? MANY_FESTOONS : MOST_FESTOONS) ||
+                (timed && drive > GREATEST_DRIVE))
+                continue;
+            if (length + 16 < ALIASES_SIZE)
+                length += (size_t)snprintf(others + length, ALIASES_SIZE - length, "%s%.4g%s",
+                                           length ? ", " : "", timed ? drive : festoons, timed ? " Hz" : "");
+        }
+    return length > 0;
+}
+
+static void tell_aliases(const measure_work *work, measure_drive *found, fst_measurement *measured)
+{
+    char others[ALIASES_SIZE];
+    const double bead = fabs(work->bead);
+    const int timed = isfinite(work->track->fps);
+    found->folded = list_aliases(work, others);
+    if (found->folded && timed)
+        measure_warn(measured,
+                     "%.4g frames a second may show a quicker oscillation of r as one at %.4g Hz (alias): the "
+                     "drive may be %s as well as %.4g Hz; give it, or film at 120 or 240 frames a second",
+                     work->fps, work->peak, others, work->peak / likely_lines(work) - bead);
+    else if (found->folded)
+        measure_warn(
+            measured,
+            "so few frames in a turn of the bead (%.3g) may show a quicker oscillation of r as a slow "
+            "one (alias): there may be %s festoons as well as %.4g; film at 120 or 240 frames a second",
+            1.0 / bead, others, work->peak / bead);
+}
+
 /* ---------------------------------------------------------------- which clock would agree? */
 
 /* The frame rate of cameras nearest to `fps`, or 0 where none is near. */
@@ -126,6 +195,10 @@ static int find_clock(measure_work *work, double drive, int filmed, measure_driv
 {
     const int timed = isfinite(work->track->fps), likely = likely_lines(work);
     double stayed = NAN;
+    char others[ALIASES_SIZE];
+    /* Each reading would give another clock. */
+    if (!timed && work->peak > 0 && list_aliases(work, others))
+        return 0;
     for (int try = 0; try < 3; ++try) {
         const int lines = try == 1 ? 3 - likely : likely, locked = try == 2;
         if (locked ? filmed < 0 : !(work->peak > 0))
@@ -176,38 +249,6 @@ static int find_clock(measure_work *work, double drive, int filmed, measure_driv
 
 /* ---------------------------------------------------------------- cases */
 
-/* What else the line may be, if the film folded it: the drive would be another one, and so would the number of
- * festoons.  A reading with the other symmetry is told too, but is too unlikely to be an error. */
-static void tell_aliases(const measure_work *work, measure_drive *found, fst_measurement *measured)
-{
-    const double bead = fabs(work->bead), shown = work->peak;
-    const int lines = likely_lines(work);
-    char others[FST_WARNING_SIZE / 3] = "";
-    size_t length = 0;
-    for (int i = 1; i <= 6; ++i) {
-        const double line = i % 2 ? (i + 1) / 2 * work->fps - shown : i / 2 * work->fps + shown;
-        for (int of = 1; of <= 2; ++of) {
-            const double festoons = line / bead, drive = line / of - bead;
-            const double least = of == 1 ? LEAST_FESTOONS : MANY_FESTOONS;
-            if (festoons < least || festoons > (of == 1 ? MANY_FESTOONS : MOST_FESTOONS) ||
-                drive > GREATEST_DRIVE)
-                continue;
-            if (of == lines) {
-                found->drive_apart = fmax(found->drive_apart, fabs(drive - (shown / lines - bead)));
-                found->festoons_apart = fmax(found->festoons_apart, fabs(festoons - shown / bead));
-            }
-            if (length + 16 < sizeof others)
-                length += (size_t)snprintf(others + length, sizeof others - length, "%s%.4g Hz",
-                                           length ? ", " : "", drive);
-        }
-    }
-    if (length > 0)
-        measure_warn(measured,
-                     "%.4g frames a second may show a quicker oscillation of r as one at %.4g Hz (alias): the "
-                     "drive may be %s as well as %.4g Hz; give it, or film at 120 or 240 frames a second",
-                     work->fps, shown, others, shown / lines - bead);
-}
-
 /* Without a drive, or with one that agrees with nothing: what a bead that circles clockwise against a magnet
  * that turns counter-clockwise shows by itself. */
 static void by_itself(measure_work *work, int filmed, measure_drive *found, fst_measurement *measured)
@@ -236,8 +277,7 @@ static void by_itself(measure_work *work, int filmed, measure_drive *found, fst_
         work->f0 = work->peak / lines;
         if (work->half)
             found->radial = work->f0;
-        if (isfinite(work->track->fps))
-            tell_aliases(work, found, measured);
+        tell_aliases(work, found, measured);
     }
 }
 
@@ -273,16 +313,83 @@ static int by_drive(measure_work *work, double drive, int filmed, measure_drive 
     return 1;
 }
 
-/* Where festoons would stand still in the film, means depend on where they stand. */
-static void warn_of_standing(const measure_work *work, double drive, fst_measurement *measured)
+/* Whether the line that is seen may be but twice that of the festoons, which is hidden. */
+static int may_be_second(const measure_work *work)
 {
-    for (int lines = 1; lines <= 2; ++lines) {
+    const double most = most_of_lines(work, GREATEST_DRIVE);
+    for (int n = 1; unfolded(work, n) <= 2.0 * most; ++n)
+        if (unfolded(work, n) > 2.0 * LEAST_FESTOONS * fabs(work->bead) &&
+            measure_stands(work, 0.5 * unfolded(work, n)))
+            return 1;
+    return 0;
+}
+
+/* Festoons may be there that are not seen: where they stand still in the film, or look like a tilt, means depend on
+ * where they stand. */
+static void look_for_standing(const measure_work *work, double drive, measure_drive *found,
+                              fst_measurement *measured)
+{
+    const double unseen = measure_least_line(work);
+    for (int lines = 1; lines <= 2 && isfinite(drive); ++lines) {
         const double expected = lines * (drive + fabs(work->bead));
-        if (measure_folded(expected, work->fps) < 1.5 / measure_duration(work))
-            measure_warn(measured,
-                         "%.5g frames a second are in step with festoons at %.5g Hz, which stand still in the "
-                         "film: means of r may be wrong by all of its oscillation; film at another frame rate",
-                         work->fps, expected);
+        if (expected < 0.5 * work->fps ||
+            (measure_folded(expected, work->fps) > unseen && !measure_stands(work, expected)))
+            continue;
+        found->standing = found->folded = 1;
+        measure_warn(
+            measured,
+            "%.5g frames a second are in step with festoons at %.5g Hz, which stand still in the film, or "
+            "look like a tilt: means of r may be wrong by all of its oscillation; film at another frame rate",
+            work->fps, expected);
+    }
+    if (isfinite(drive) ||
+        (work->peak > 0 ? !may_be_second(work) : work->fps - unseen > most_of_lines(work, GREATEST_DRIVE)))
+        return;
+    found->standing = 1;
+    measure_warn(
+        measured,
+        "festoons may stand still in a film of so few frames (%.3g in a turn of the bead), or look like a "
+        "tilt: "
+        "means of r may be wrong by all of its oscillation; give the drive, or film at 120 or 240 frames a "
+        "second",
+        work->fps / fabs(work->bead));
+}
+
+/* Whether the bead may go round with another rate, which the film shows as this one.  Against a known drive it
+ * has festoons, with it the drive's rate. */
+static int bead_is_folded(const measure_work *work, double drive, int filmed, const measure_drive *found)
+{
+    const int known = isfinite(drive);
+    for (int n = -1; n <= 1 && found->motion != FST_MOTION_LOCKED; n += 2) {
+        const double other = filmed * fabs(work->bead) + n * work->fps;
+        if (known ? (other < 0 && -other <= drive / (LEAST_FESTOONS - 1.0)) ||
+                        (fabs(other - drive) < 0.01 * drive && found->motion != FST_MOTION_TURNING)
+                  : fabs(other) < FASTEST_BEAD)
+            return 1;
+    }
+    return 0;
+}
+
+/* What the frame rate hides. */
+static void look_for_aliases(const measure_work *work, double drive, int filmed, measure_drive *found,
+                             fst_measurement *measured)
+{
+    const double greatest =
+        found->motion == FST_MOTION_LOCKED ? GREATEST_DRIVE : most_of_lines(work, fmax(GREATEST_DRIVE, drive));
+    found->fastest =
+        found->motion == FST_MOTION_TURNING && !found->folded ? found->radial : fastest_line(work, greatest);
+    const int timed = isfinite(work->track->fps);
+    if (found->motion != FST_MOTION_LOCKED)
+        look_for_standing(work, timed ? drive : NAN, found, measured);
+    if (timed && bead_is_folded(work, drive, filmed, found)) {
+        found->bead_folded = found->folded = 1;
+        found->motion = FST_MOTION_UNKNOWN;
+        measure_warn(
+            measured,
+            "%.4g frames a second may show a bead that turns at %.4g Hz as one at %.4g Hz the other way "
+            "round (alias): %s film at 120 or 240 frames a second",
+            work->fps, work->fps - fabs(work->bead), fabs(work->bead),
+            isfinite(drive) ? "" : "give the drive, or");
     }
 }
 
@@ -314,8 +421,7 @@ fst_status measure_find_drive(measure_work *work, const fst_measure_options *opt
         agreed = find_clock(work, drive, filmed, found, measured);
     if (!agreed)
         by_itself(work, filmed, found, measured);
-    if (known && timed && work->peak == 0.0)
-        warn_of_standing(work, drive, measured);
+    look_for_aliases(work, known ? drive : NAN, filmed, found, measured);
     fst_status status = found->motion == FST_MOTION_TURNING ? measure_refine_motion(work, error) : FST_OK;
     if (status == FST_OK && found->clock_follows)
         status = finish_clock(work, drive, found, measured, error);
@@ -325,7 +431,17 @@ fst_status measure_find_drive(measure_work *work, const fst_measure_options *opt
         found->symmetry = 1;
         found->radial = work->f0;
     }
-    found->unsure = found->symmetry == 2 && measure_may_hide_line(work, 1, 2);
+    if (work->skipped[1] == 2) {
+        found->folded = 1;
+        measure_warn(
+            measured,
+            "%.5g frames a second show an oscillation of r at %.5g Hz in the place of one at %.5g Hz: there is "
+            "no number of festoons; film at another frame rate",
+            work->fps, 2.0 * work->f0, work->f0);
+    }
+    const int blended = found->symmetry == 1 && measure_line_is_blended(work);
+    found->symmetry = blended ? 2 : found->symmetry;
+    found->unsure = !found->folded && found->symmetry == 2 && (blended || measure_may_hide_line(work, 1, 2));
     /* What every second festoon differs by may be but the rest of the motion's beginning. */
     if (status == FST_OK && found->symmetry == 1 && work->half && measure_line_dies(work, 1)) {
         found->symmetry = 2;

@@ -22,6 +22,9 @@
 
 enum { LEAST_TURNS = 8, DRAWS = 800 };
 
+/* What of the variance of r may be hidden before there is none. */
+#define MOST_HIDDEN 0.5
+
 /* What has an error. */
 enum { R0, VARIANCE, BEAD, F0, TILT_C, TILT_S, CENTRE_X, CENTRE_Y, QUANTITIES };
 
@@ -43,7 +46,7 @@ static void influence_of(const measure_work *work, size_t i, double influence[QU
     influence[VARIANCE] = 0.0;
     for (int k = 1; k < first; ++k)
         influence[VARIANCE] += c[k] * moved[k] * work->gain;
-    influence[F0] = moved[first + MEASURE_SLOPE];
+    influence[F0] = moved[first + MEASURE_SLOPE] * work->gain; /* the noise did not grow with the line */
     influence[TILT_C] = moved[first + MEASURE_TILT_C];
     influence[TILT_S] = moved[first + MEASURE_TILT_S];
     influence[CENTRE_X] = moved[first + MEASURE_CENTRE_X];
@@ -147,6 +150,7 @@ static void white_variances(const measure_work *work, double variance[QUANTITIES
     const double square_r = left_over(work, work->r_off, r), square_a = left_over(work, work->a_off, a);
     for (int q = 0; q < QUANTITIES; ++q)
         variance[q] = square_r * r->inverse[columns[q]][columns[q]];
+    variance[F0] *= work->gain * work->gain;
     variance[BEAD] = square_a * a->inverse[last][last];
     variance[VARIANCE] = 0.0;
     for (int i = 1; i < first; ++i)
@@ -175,6 +179,61 @@ static void variances(const measure_work *work, const turn_sums *turns, double v
         for (int q = 0; q < QUANTITIES; ++q)
             variance[q] = fmax(variance[q], wider * found[q]);
         *covariance = length == 1 ? wider * joint : *covariance;
+    }
+}
+
+/* ---------------------------------------------------------------- what the film hides */
+
+/* Whether the harmonic k of r cannot be seen: the film shows it in the place of another one, or of the mean, or
+ * the exposure has blurred it away. */
+static int is_hidden(const measure_work *work, int k)
+{
+    return work->skipped[k - 1] ||
+           (work->exposure > 0 && measure_kept(k * work->f0, work->exposure) < MEASURE_LEAST_KEPT);
+}
+
+static int is_any_hidden(const measure_work *work)
+{
+    int hidden = 0;
+    for (int k = 1; k <= work->harmonics && work->f0 > 0; ++k)
+        hidden |= is_hidden(work, k);
+    return hidden;
+}
+
+/* The size of the harmonic k, of every `by`-th that r has.  A hidden one is taken to have half of the one before
+ * it: motions have a seventh to a half. */
+static double size_of(const measure_work *work, int k, int by)
+{
+    double least;
+    if (k < 1)
+        return INFINITY;
+    return is_hidden(work, k) ? 0.5 * size_of(work, k - by, by) : measure_line_size(work, k, &least);
+}
+
+/* What hidden harmonics add to the variances.  One that looks like the mean of r, or like a tilt, moves these by
+ * its size, and the slope of alpha likewise; one in the place of another moves that one's size and frequency. */
+static void add_hidden(const measure_work *work, double variance[QUANTITIES])
+{
+    const int by = work->skipped[0] || measure_has_line(work, 1) ? 1 : 2; /* r may have the even ones alone */
+    const double r0 = work->radial.coefficient[0], slope = 0.6 / measure_duration(work);
+    double least, weight = 0.0;
+    for (int k = 1; k <= work->harmonics; ++k)
+        weight += pow(k * measure_line_size(work, k, &least), 2);
+    for (int k = by; k <= work->harmonics; k += by) {
+        if (!is_hidden(work, k))
+            continue;
+        const double size = size_of(work, k, by), square = 0.5 * size * size;
+        const int place = work->skipped[k - 1] - 1;
+        const double with = place > 0 ? measure_line_size(work, place, &least) : 0.0;
+        variance[VARIANCE] += 0.25 * pow(size * (size + sqrt(2.0) * with), 2);
+        variance[F0] += with > 0 ? square * pow(place * with / weight * slope, 2) : 0.0;
+        if (place != 0)
+            continue;
+        for (int q = 0; q < QUANTITIES; ++q)
+            variance[q] += q == F0 || q == VARIANCE   ? 0.0
+                           : q == R0 || q >= CENTRE_X ? square
+                           : q == BEAD                ? square * pow(slope / r0, 2)
+                                                      : square / (r0 * r0);
     }
 }
 
@@ -254,12 +313,22 @@ static void take_radius(const measure_work *work, const turn_sums *turns, const 
         measured->std_r_error = sqrt(2.0 * square * (log((double)work->count) + 6.9) / (double)work->count);
     measured->std_r_error = sqrt(measured->std_r_error * measured->std_r_error +
                                  measured->std_r * measured->std_r * systematic * systematic);
+    if (spread > MOST_HIDDEN * waves && is_any_hidden(work)) {
+        measure_warn(
+            measured,
+            "%.5g frames a second, or the exposure, hide too much of the festoons: there is no delta r; film "
+            "at 120 or 240 frames a second, with 1/500 s or less",
+            work->fps);
+        measured->std_r = measured->std_r_error = NAN;
+    }
 }
 
 static void take_rates(const measure_work *work, const measure_drive *drive, const double variance[QUANTITIES],
                        double covariance, fst_measurement *measured)
 {
     const double bead = fabs(work->bead);
+    if (drive->bead_folded)
+        return;
     measured->bead_frequency_hz = drive->relative * bead;
     measured->bead_frequency_hz_error = sqrt(variance[BEAD]);
     if (drive->motion == FST_MOTION_LOCKED) {
@@ -267,7 +336,7 @@ static void take_rates(const measure_work *work, const measure_drive *drive, con
         measured->drive_from_track_hz_error = measured->bead_frequency_hz_error;
         return;
     }
-    if (drive->motion != FST_MOTION_TURNING)
+    if (drive->motion != FST_MOTION_TURNING || drive->folded)
         return;
     /* f_drive = f0 + f_bead (with its sign against the magnet); N = a (1 + f_drive/|f_bead|). */
     const double a = drive->symmetry, sign = drive->relative, magnet = work->f0 + sign * bead;
@@ -276,8 +345,7 @@ static void take_rates(const measure_work *work, const measure_drive *drive, con
     measured->radial_frequency_hz = a * work->f0;
     measured->radial_frequency_hz_error = a * sqrt(variance[F0]);
     measured->drive_from_track_hz = magnet;
-    measured->drive_from_track_hz_error =
-        hypot(error_of(variance[F0] + variance[BEAD] + 2.0 * joint), drive->drive_apart);
+    measured->drive_from_track_hz_error = error_of(variance[F0] + variance[BEAD] + 2.0 * joint);
     measured->festoons = a * (1.0 + magnet / bead);
     const double by_f0 = a / bead, by_bead = -sign * a * work->f0 / (bead * bead); /* by sign*bead */
     measured->festoons_error = error_of(by_f0 * by_f0 * variance[F0] + by_bead * by_bead * variance[BEAD] +
@@ -287,7 +355,6 @@ static void take_rates(const measure_work *work, const measure_drive *drive, con
         measured->bead_frequency_hz_error = bead * measured->festoons_error / fabs(measured->festoons - a);
         measured->radial_frequency_hz_error = a * measured->bead_frequency_hz_error;
     }
-    measured->festoons_error = hypot(measured->festoons_error, drive->festoons_apart);
 }
 
 /* Keep what was fitted to r. */
@@ -317,6 +384,11 @@ fst_status measure_find_errors(const measure_work *work, const measure_drive *dr
     if (status != FST_OK)
         return status;
     variances(work, &turns, variance, &covariance);
+    if (work->f0 > 0)
+        add_hidden(work, variance);
+    for (int q = 0; q < QUANTITIES; ++q)
+        if (drive->standing || isinf(variance[R0]))
+            variance[q] = NAN;
     take_radius(work, &turns, variance, slow, measured);
     take_rates(work, drive, variance, covariance, measured);
     for (int i = 0; i < 2; ++i) {

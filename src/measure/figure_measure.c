@@ -402,7 +402,7 @@ fst_status fst_figure_measurement(const fst_track *track, const fst_measurement 
     fst_figure_file figure;
     closed_curve *curve = NULL;
     fst_legend legend = {.count = 0};
-    if (compare && m->motion != FST_MOTION_TURNING)
+    if (compare && (m->motion != FST_MOTION_TURNING || !isfinite(m->drive_from_track_hz)))
         return fst_fail(
             error, FST_BAD_INPUT, "fst_figure_measurement.compare",
             "the track tells no festoons: a scene can only be laid over a bead that turns against the magnet");

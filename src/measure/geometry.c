@@ -134,8 +134,18 @@ double measure_folded(double frequency, double fps)
     return fabs(frequency - fps * round(frequency / fps));
 }
 
-/* Choose the harmonics: not more than the rows allow, and none that the frame rate maps onto zero or onto
- * another one.
+int measure_stands(const measure_work *work, double frequency)
+{
+    const double apart = 1.5 / measure_duration(work), here = measure_folded(frequency, work->fps);
+    if (here < apart || 0.5 * (work->fps - apart) < here)
+        return 1;
+    int stands = 0;
+    for (int turns = 1; turns <= 2 && frequency > 0.5 * work->fps; ++turns)
+        stands |= fabs(here - measure_folded(turns * work->bead, work->fps)) < apart;
+    return stands;
+}
+
+/* Choose the harmonics: not more than the rows allow, and none that the frame rate hides, or maps onto another one.
  */
 static void choose_harmonics(measure_work *work)
 {
@@ -145,9 +155,10 @@ static void choose_harmonics(measure_work *work)
         --work->harmonics;
     for (int k = 1; k <= work->harmonics; ++k) {
         const double here = measure_folded(k * work->f0, work->fps);
-        work->skipped[k - 1] = here < apart;
+        work->skipped[k - 1] = measure_stands(work, k * work->f0);
         for (int j = 1; j < k; ++j)
-            work->skipped[k - 1] |= fabs(here - measure_folded(j * work->f0, work->fps)) < apart;
+            if (fabs(here - measure_folded(j * work->f0, work->fps)) < apart)
+                work->skipped[k - 1] = 1 + j;
     }
 }
 
@@ -285,8 +296,7 @@ static int place_of_line(const measure_work *work, int k)
     return at;
 }
 
-/* The amplitude of k f0 in r, 0 where the model lacks it, and the least one that would stand out of the noise. */
-static double line_of(const measure_work *work, int k, double *least)
+double measure_line_size(const measure_work *work, int k, double *least)
 {
     *least = INFINITY;
     if (work->skipped[k - 1])
@@ -302,15 +312,25 @@ static double line_of(const measure_work *work, int k, double *least)
 int measure_has_line(const measure_work *work, int k)
 {
     double least;
-    return line_of(work, k, &least) > least;
+    return measure_line_size(work, k, &least) > least;
 }
 
 int measure_may_hide_line(const measure_work *work, int k, int behind)
 {
     double hidden, least;
-    const double seen = line_of(work, behind, &least);
-    (void)line_of(work, k, &hidden);
+    const double seen = measure_line_size(work, behind, &least);
+    (void)measure_line_size(work, k, &hidden);
     return hidden > HIDDEN * seen;
+}
+
+int measure_line_is_blended(const measure_work *work)
+{
+    double least;
+    const double small = HIDDEN * measure_line_size(work, 2, &least);
+    for (int k = 3; k <= work->harmonics; ++k)
+        if (work->skipped[k - 1] == 2)
+            return measure_line_size(work, 1, &least) < small;
+    return 0;
 }
 
 /* The amplitude in the rows from first to last, by correlation: the model's line with what the model leaves there. */
@@ -412,6 +432,11 @@ static int is_exact_circle(const measure_work *work)
     return off < 1e-26 * all;
 }
 
+double measure_least_line(const measure_work *work)
+{
+    return fmax(0.6 * fabs(work->bead), 2.0 / measure_duration(work));
+}
+
 /* Look for the line of the festoons in what a model without them leaves of r. */
 static fst_status find_peak(measure_work *work, fst_error *error)
 {
@@ -420,8 +445,7 @@ static fst_status find_peak(measure_work *work, fst_error *error)
         return FST_OK;
     const measure_series radii = {work->t, work->r_off, NULL, work->count, work->fps};
     measure_line line;
-    const fst_status status = measure_strongest_line(
-        &radii, fmax(0.6 * fabs(work->bead), 2.0 / measure_duration(work)), &line, error);
+    const fst_status status = measure_strongest_line(&radii, measure_least_line(work), &line, error);
     if (status == FST_OK && line.power > line.limit)
         work->peak = line.frequency;
     return status;

@@ -9,6 +9,9 @@
 
 enum { OPTIONS_COOKIE = 0x4d454153 };
 
+/* Two readings of an oscillation may differ in its size by this part, or there is none. */
+#define MOST_APART 0.3
+
 static const fst_measured_info rows[] = {
 #define FST_MEASURED(name, unit, doc) {#name, unit, doc, offsetof(fst_measurement, name)},
 #include <festoon/measure.def>
@@ -91,9 +94,9 @@ static void warn_of_frames(fst_measurement *measured)
 static void warn_of_exposure(const measure_work *work, const measure_drive *drive,
                              const fst_measure_options *options, fst_measurement *measured)
 {
-    if (!(drive->radial > 0) || !isfinite(measured->fps))
+    if (!(work->peak > 0) || drive->motion == FST_MOTION_LOCKED || !isfinite(measured->fps))
         return;
-    const double whole = 1.0 / work->fps, loss = 1.0 - fmax(0.0, measure_kept(drive->radial, whole));
+    const double whole = 1.0 / work->fps, loss = 1.0 - fmax(0.01, measure_kept(drive->fastest, whole));
     if (isnan(options->exposure) && loss > 0.02)
         measure_warn(measured,
                      "the exposure is unknown: with one of a whole frame (%.3g ms) std_r would be %.2g %% too "
@@ -101,18 +104,50 @@ static void warn_of_exposure(const measure_work *work, const measure_drive *driv
                      1e3 * whole, 100.0 * loss);
 }
 
+/* What the exposure did to an oscillation whose frequency is not known, or whose blur cannot be undone. */
+static void widen_for_exposure(const measure_work *work, const measure_drive *drive, int lost,
+                               fst_measurement *measured)
+{
+    const double bead = fabs(work->bead), kept = measure_kept(drive->fastest, work->exposure);
+    /* Where the line is a known one each of its waves is restored by its own frequency; otherwise that of a wave may
+     * be anything up to the fastest one. */
+    const int known = (drive->motion == FST_MOTION_TURNING && !drive->folded) || drive->fastest == work->peak;
+    const double apart = known ? 0.0 : 1.0 / measure_kept(drive->fastest + bead, work->exposure) - 1.0;
+    if (lost || kept < MEASURE_LEAST_KEPT || !(apart >= 0.0 && apart < MOST_APART) ||
+        (drive->bead_folded && measure_kept(work->fps - bead, work->exposure) < 0.98)) {
+        measure_warn(
+            measured,
+            known ? "the exposure lasts as long as an oscillation of r: what it blurred cannot be restored"
+                  : "how fast r oscillates is not known, nor what the exposure has blurred of it: there is "
+                    "no delta r; film with 1/500 s or less, at 120 or 240 frames a second");
+        /* What blurred the oscillation away blurred the mean radius too, by an unknown part. */
+        measured->std_r = measured->std_r_error = measured->mean_r_error = NAN;
+        measured->drive_from_track_hz_error = measured->festoons_error = measured->radial_frequency_hz_error =
+            NAN;
+        return;
+    }
+    const double *c = work->angular.coefficient + 1; /* the path's bends, whose blur shortens the mean radius */
+    const double bends = 0.5 * fst_dot(c, c, work->angular.columns - 2);
+    measured->std_r_error = hypot(measured->std_r_error, apart * measured->std_r);
+    measured->mean_r_error = hypot(measured->mean_r_error, apart * bends * measured->mean_r);
+}
+
 /* ---------------------------------------------------------------- the whole */
 
 /* Whether every second festoon is alike cannot be told. */
-static void forget_festoons(fst_measurement *measured, int fades)
+static void forget_festoons(const measure_work *work, fst_measurement *measured, int fades)
 {
+    const int folded = work->skipped[0] || measure_line_is_blended(work);
     measure_warn(measured, "%s: there are %.4g festoons, or %.4g if they are all alike (S2); %s",
-                 fades ? "every second festoon differs ever less in this film"
-                       : "the noise of the places hides whether every second festoon differs",
+                 fades    ? "every second festoon differs ever less in this film"
+                 : folded ? "the frame rate hides whether every second festoon differs"
+                          : "the noise of the places hides whether every second festoon differs",
                  0.5 * measured->festoons, measured->festoons,
-                 fades ? "film the motion when it has settled, and for longer"
-                       : "film it for longer, or closer");
+                 fades    ? "film the motion when it has settled, and for longer"
+                 : folded ? "film it at 120 or 240 frames a second"
+                          : "film it for longer, or closer");
     measured->festoons = measured->festoons_error = NAN;
+    measured->radial_frequency_hz = measured->radial_frequency_hz_error = NAN;
 }
 
 /* Clean and fit until no more places are rejected. */
@@ -148,23 +183,26 @@ static fst_status measure(measure_work *work, const fst_measure_options *options
     fst_status status = find_motion(work, error);
     if (status == FST_OK)
         status = measure_find_drive(work, options, &drive, measured, error);
+    int lost = 0;
     if (status == FST_OK && options->exposure > 0 && isfinite(work->track->fps)) {
         const double before = oscillation(work);
-        measure_sharpen(work, options->exposure, measured);
+        work->exposure = options->exposure;
+        lost = measure_sharpen(work);
         status = measure_refine_motion(work, error);
         work->gain = before > 0 ? fmax(1.0, oscillation(work) / before) : 1.0;
     }
     measured->fps = isfinite(work->track->fps) ? work->fps : NAN;
     measured->motion = drive.motion;
-    measured->symmetry = drive.motion == FST_MOTION_TURNING && !drive.unsure ? drive.symmetry : 0;
+    measured->symmetry =
+        drive.motion == FST_MOTION_TURNING && !drive.unsure && !drive.folded ? drive.symmetry : 0;
     if (status == FST_OK)
         status = measure_find_errors(work, &drive, measured, error);
     if (status == FST_OK && drive.unsure)
-        forget_festoons(measured, drive.fades);
-    /* What blurred the oscillation away blurred the mean radius too, by an unknown part. */
-    if (status == FST_OK && options->exposure > 0 && drive.radial > 0 &&
-        measure_kept(drive.radial, options->exposure) < MEASURE_LEAST_KEPT)
-        measured->std_r = measured->std_r_error = measured->mean_r_error = NAN;
+        forget_festoons(work, measured, drive.fades);
+    if (status == FST_OK && work->exposure > 0)
+        widen_for_exposure(work, &drive, lost, measured);
+    if (status == FST_OK && drive.standing)
+        measured->std_r = NAN;
     if (status == FST_OK && measured->wave_mean < 3.0 * measured->noise)
         status = fst_fail(error, FST_NO_CONVERGENCE, "",
                           "the bead rests, or trembles: its path has a radius of %.3g %s, no more than the "

@@ -6,6 +6,8 @@
  */
 #include "measure/work.h"
 
+#include <stdlib.h>
+
 #include "base/constants.h"
 
 enum { WAVES = 6 }; /* k from -6 to 6: twice 13 columns */
@@ -36,8 +38,10 @@ static int choose_waves(const measure_work *work, double exposure, wave waves[2 
             hidden |= fabs(difference - work->fps * round(difference / work->fps)) < apart;
         }
         const double kept = measure_kept(f, exposure);
-        if (hidden)
+        if (hidden) {
+            *too_long |= abs(k) <= 2 && kept < 0.98;
             continue;
+        }
         if (kept < MEASURE_LEAST_KEPT) { /* what is still seen is mostly noise */
             *too_long |= k == 1 || k == 2;
             continue;
@@ -57,17 +61,14 @@ static void wave_row(const wave *waves, int count, double t, int part, double *r
     }
 }
 
-void measure_sharpen(measure_work *work, double exposure, fst_measurement *measured)
+int measure_sharpen(measure_work *work)
 {
     wave waves[2 * WAVES + 1];
     double row[MEASURE_MOST_COLUMNS];
     int too_long;
-    const int count = choose_waves(work, exposure, waves, &too_long);
+    const int count = choose_waves(work, work->exposure, waves, &too_long);
     const double *m = work->stretch, det = m[0] * m[2] - m[1] * m[1];
     measure_regression fit;
-    if (too_long)
-        measure_warn(measured,
-                     "the exposure lasts as long as an oscillation of r: what it blurred cannot be restored");
     measure_regression_begin(&fit, 2 * count);
     for (size_t i = 0; i < work->count; ++i)
         for (int part = 0; part < 2; ++part) {
@@ -85,4 +86,5 @@ void measure_sharpen(measure_work *work, double exposure, fst_measurement *measu
         work->x[i] += (m[2] * px - m[1] * py) / det;
         work->y[i] += (m[0] * py - m[1] * px) / det;
     }
+    return too_long;
 }

@@ -32,12 +32,14 @@ typedef struct measure_work {
     double bead;   /* turns of the bead in a unit of t, counter-clockwise positive, as filmed */
     double f0;     /* the frequency of which r has the harmonics; 0: r does not oscillate */
     int harmonics; /* how many are fitted */
-    int skipped[MEASURE_HARMONICS]; /* harmonics that cannot be told from others at this frame rate */
+    int skipped[MEASURE_HARMONICS]; /* 0: the harmonic can be seen; 1: the frame rate hides it; 1 + k: it shows
+                                       it in the place of the k-th */
     double peak;                    /* the strongest line of r; 0: none beyond the noise */
     int half;                       /* there is a line at half that frequency too */
     const fst_progress *progress;   /* NULL: nobody is told */
     double rounds;                  /* of the regression so far */
     double gain;                    /* by how much r oscillates more since an exposure was undone */
+    double exposure;                /* that was undone, 0 if none */
     measure_regression radial, angular;
 } measure_work;
 
@@ -61,12 +63,21 @@ fst_status measure_refine_motion(measure_work *work, fst_error *error);
 /* Put row `i` of the track at the place `at` of the work's arrays, with r and alpha by the present centre and
  * models. */
 void measure_place_row(measure_work *work, size_t at, size_t i);
+/* The slowest line of r that is looked for: slower ones are those of centre and tilt, or the film's length. */
+double measure_least_line(const measure_work *work);
+/* The amplitude of k f0 in r, 0 where the model lacks it, and the least one that would stand out of the noise. */
+double measure_line_size(const measure_work *work, int k, double *least);
 /* Whether r oscillates with k f0, beyond the noise. */
 int measure_has_line(const measure_work *work, int k);
 /* Whether the noise could hide an oscillation with k f0 that is not small beside that with `behind` f0. */
 int measure_may_hide_line(const measure_work *work, int k, int behind);
+/* Whether what is seen with f0 may be one of its multiples, which the frame rate shows there. */
+int measure_line_is_blended(const measure_work *work);
 /* Whether k f0 fades away in the film: less than half is left in its last third of what the first has. */
 int measure_line_dies(const measure_work *work, int k);
+/* Whether the frame rate maps a frequency onto zero, onto the lines by which centre and tilt show, or onto half of
+ * itself, where it shows but one phase. */
+int measure_stands(const measure_work *work, double frequency);
 /* The frequency at which a film of so many frames a second shows another one. */
 double measure_folded(double frequency, double fps);
 double measure_duration(const measure_work *work);
@@ -77,13 +88,16 @@ int measure_angular_row(const measure_work *work, size_t i, double *row);
 /* What the rates tell of the drive. */
 typedef struct measure_drive {
     fst_motion motion;
-    int symmetry;  /* a, by which f_drive follows */
-    int unsure;    /* a is 2, but the noise may hide that it is 1, or a was 1 and may become 2 */
-    int fades;     /* the second of these */
-    int relative;  /* 1: the bead goes round with the magnet, -1: against it */
-    double radial; /* f_r in Hz, as it is and not as the film shows it; NAN: unknown */
-    double drive_apart, festoons_apart; /* how far another reading of a folded line puts them; 0: none does */
-    int clock_follows;                  /* the file has no clock, and the drive gave it one */
+    int symmetry;      /* a, by which f_drive follows */
+    int unsure;        /* a is 2, but the noise may hide that it is 1, or a was 1 and may become 2 */
+    int fades;         /* the second of these */
+    int relative;      /* 1: the bead goes round with the magnet, -1: against it */
+    double radial;     /* f_r in Hz, as it is and not as the film shows it; NAN: unknown */
+    double fastest;    /* the most Hz that the oscillation of r may have, which the frame rate may hide */
+    int folded;        /* the line of r may be a folded one: drive, festoons and symmetry are not known */
+    int standing;      /* festoons may look like the mean of r, or like a tilt */
+    int bead_folded;   /* so may the bead's own rate be */
+    int clock_follows; /* the file has no clock, and the drive gave it one */
 } measure_drive;
 
 /* Compare rates and drive: f0, symmetry and sense follow, and the clock is corrected where only another one
@@ -96,8 +110,8 @@ fst_status measure_find_drive(measure_work *work, const fst_measure_options *opt
 
 /* What an exposure of so many seconds leaves of an oscillation. */
 double measure_kept(double frequency, double exposure);
-/* Undo what an exposure of so many seconds blurs. */
-void measure_sharpen(measure_work *work, double exposure, fst_measurement *measured);
+/* Undo what work->exposure blurs.  Returns whether it has left too little of the festoons. */
+int measure_sharpen(measure_work *work);
 
 /* Fill in all means and errors. */
 fst_status measure_find_errors(const measure_work *work, const measure_drive *drive, fst_measurement *measured,

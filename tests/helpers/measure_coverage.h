@@ -54,8 +54,21 @@ static inline made_film random_film(uint64_t *chance, double longest, int *has_d
     return film;
 }
 
+/* A film of so few frames a second that it shows most festoons as slower ones. */
+static inline made_film coarse_film(uint64_t *chance, double longest, int *has_drive)
+{
+    made_film film = random_film(chance, longest, has_drive);
+    film.fps = 12.0 + 48.0 * made_chance(chance);
+    film.seconds = 5.0 + (longest - 6.0) * made_chance(chance);
+    film.exposure = made_chance(chance) < 0.3 ? 0.0 : made_chance(chance) / film.fps;
+    film.clock = 1.0;
+    film.wild = 0.0;
+    *has_drive = film.mirrored || made_chance(chance) < 0.6;
+    return film;
+}
+
 typedef struct coverage {
-    int within[COVERED][2], counted;
+    int within[COVERED][2], counted, known[COVERED]; /* known: it has an error */
     double farthest[COVERED];
 } coverage;
 
@@ -85,8 +98,9 @@ static inline void cover_film(coverage *c, int number, const made_motion *motion
         const double z = fabs(found[q][0] - found[q][2]) / found[q][1];
         c->within[q][0] += z < 1.0;
         c->within[q][1] += z < 2.0;
-        c->farthest[q] = fmax(c->farthest[q], isnan(z) ? INFINITY : z);
-        if (!(z < 4.5))
+        c->known[q] += !isnan(z);
+        c->farthest[q] = fmax(c->farthest[q], isnan(z) ? 0.0 : z);
+        if (z >= 4.5)
             print_message(
                 "film %d, %s: %.9g +- %.2g, truth %.9g: drive %g, %g frames a second for %g s, noise %.2f, "
                 "tilt %.1f, exposure %.4f, lost %.2f, wild %.3f, clock %g\n",
@@ -117,7 +131,32 @@ static inline void check_coverage(int kinds, int films)
                       c.farthest[q]);
         assert_true(one > 0.683 - 3.0 * scatter && one < 0.683 + 6.0 * scatter);
         assert_true(two > 0.954 - 3.0 * sqrt(0.954 * 0.046 / films));
-        assert_true(c.farthest[q] < 5.0);
+        assert_true(c.farthest[q] < 5.0 && c.known[q] == films);
+    }
+    for (int i = 0; i < kinds; ++i)
+        made_motion_free(&motions[i]);
+}
+
+/* What has an error in films of few frames a second.  What the rate hides has none, and what it may hide a wide one. */
+static inline void check_coarse_coverage(int kinds, int films)
+{
+    static const double longest = 12.0;
+    made_motion motions[MOTIONS];
+    coverage c = {.counted = 0};
+    uint64_t chance = 20260102;
+    make_motions(motions, kinds, longest);
+    for (int i = 0; i < films; ++i) {
+        int has_drive;
+        const made_film film = coarse_film(&chance, longest, &has_drive);
+        cover_film(&c, i, &motions[i % kinds], &film, has_drive);
+    }
+    for (int q = 0; q < COVERED; ++q) {
+        const double known = c.known[q], one = c.within[q][0] / known, two = c.within[q][1] / known;
+        print_message("%-22s of %3.0f films, within one error: %.3f, two: %.3f, farthest %.1f\n",
+                      covered_names[q], known, one, two, c.farthest[q]);
+        assert_true(known > 0.2 * films && known < 0.9 * films);
+        assert_true(one > 0.683 - 3.0 * sqrt(0.683 * 0.317 / known) && one < 0.95);
+        assert_true(two > 0.954 - 3.0 * sqrt(0.954 * 0.046 / known) && c.farthest[q] < 5.0);
     }
     for (int i = 0; i < kinds; ++i)
         made_motion_free(&motions[i]);

@@ -220,6 +220,59 @@ static void test_few_frames_a_second(void **state)
     made_motion_free(&motion);
 }
 
+/* What a low frame rate cannot tell is not told, and a warning says why.  A letter a number: m mean_r, d delta r, b
+ * bead, n festoons, f drive, t tilt; in capitals: with an error. */
+static void test_hidden_festoons(void **state)
+{
+    (void)state;
+    static const struct {
+        double hertz, fps, exposure;
+        int has_drive;
+        const char *known, *word;
+    } films[] = {
+        {19.9, 60.0, NAN, 1, "MDBNFT", "explains"},
+        {19.9, 60.0, NAN, 0, "MDBT", "19.9 Hz as well as 10.7 Hz"}, /* 46 Hz look like 14 Hz */
+        {13.0, 15.0, 30e-3, 0, "mBT", "has blurred"},               /* twice 15.88 Hz look like 1.75 Hz */
+        {13.0, 15.0, 30e-3, 1, "mbt", "stand still"},               /* the drive does not help */
+        {10.7, 24.0, 30e-3, 1, "MDBNFT", "explains"},               /* but it does here */
+        {10.7, 24.0, 30e-3, 0, "mBT", "has blurred"},               /* 14 Hz or 10 Hz: blurred by how much? */
+        {15.6, 31.2045, 2e-3, 1, "mbt", "like a tilt"},             /* 37 Hz look like two waves a turn */
+        {15.6, 27.757, NAN, 1, "MBT", "in the place of"}, /* 18.5 Hz and 37 Hz both look like 9.25 Hz */
+        {5.0, 8.0, NAN, 0, "mt", "the other way round"},  /* a locked bead looks like one against it */
+        {5.0, 8.0, NAN, 1, "mt", "the other way round"},
+        {15.6, 24.0, 30e-3, 1, "mBfT", "cannot be restored"},
+    };
+    for (size_t i = 0; i < sizeof films / sizeof *films; ++i) {
+        made_motion motion = motion_at(films[i].hertz, 10.0);
+        made_film film = made_film_plain();
+        fst_track track;
+        film.fps = films[i].fps;
+        film.exposure = isnan(films[i].exposure) ? 0.0 : films[i].exposure;
+        film.seconds = 9.0;
+        const fst_measurement m =
+            measured(&motion, &film, films[i].has_drive ? motion.drive : NAN, films[i].exposure, &track);
+        const double found[6][2] = {{m.mean_r, m.mean_r_error},
+                                    {m.std_r, m.std_r_error},
+                                    {m.bead_frequency_hz, m.bead_frequency_hz_error},
+                                    {m.festoons, m.festoons_error},
+                                    {m.drive_from_track_hz, m.drive_from_track_hz_error},
+                                    {m.tilt_deg, m.tilt_deg_error}};
+        char known[7] = "", *end = known;
+        for (int q = 0; q < 6; ++q)
+            if (!isnan(found[q][0]))
+                *end++ = "mdbnftMDBNFT"[q + (isnan(found[q][1]) ? 0 : 6)];
+        *end = '\0';
+        if (strcmp(known, films[i].known) != 0 || !warned(&m, films[i].word))
+            fail_msg("film %zu: %s is known, not %s; \"%s\" is said: %d", i, known, films[i].known,
+                     films[i].word, warned(&m, films[i].word));
+        assert_true(isfinite(m.radial_frequency_hz) == isfinite(m.festoons));
+        if (isfinite(m.std_r))
+            assert_near(m.std_r, m.std_r_error, film.scale * motion.std_r);
+        fst_track_free(&track);
+        made_motion_free(&motion);
+    }
+}
+
 static void test_exposure(void **state)
 {
     (void)state;
@@ -360,6 +413,12 @@ static void test_20_films(void **state)
     check_coverage(2, 20);
 }
 
+static void test_60_coarse_films(void **state)
+{
+    (void)state;
+    check_coarse_coverage(2, 60);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -368,12 +427,14 @@ int main(void)
         cmocka_unit_test(test_fading_festoons),
         cmocka_unit_test(test_clocks),
         cmocka_unit_test(test_few_frames_a_second),
+        cmocka_unit_test(test_hidden_festoons),
         cmocka_unit_test(test_exposure),
         cmocka_unit_test(test_tilt),
         cmocka_unit_test(test_faults),
         cmocka_unit_test(test_locked),
         cmocka_unit_test(test_interruption),
         cmocka_unit_test(test_20_films),
+        cmocka_unit_test(test_60_coarse_films),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

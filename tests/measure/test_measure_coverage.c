@@ -10,8 +10,14 @@ static void test_500_films(void **state)
     check_coverage(MOTIONS, 500);
 }
 
+static void test_coarse_films(void **state)
+{
+    (void)state;
+    check_coarse_coverage(MOTIONS, 500);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_500_films)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_500_films), cmocka_unit_test(test_coarse_films)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
