@@ -72,8 +72,9 @@ static fst_status show_map(const fst_paper_state *paper, int start, fst_error *e
                             ? fst_sweep_export(database, FST_EXPORT_CSV, table, NULL, error)
                             : fst_fail(error, FST_NO_MEMORY, "paper", "no memory for a file name");
     for (size_t i = 0; i < sizeof shown / sizeof shown[0] && status == FST_OK; ++i) {
+        const fst_sweep_figure as_map = {.kind = FST_FIGURE_MAP, .keys = {shown[i]}};
         char *figure = map_path(paper, start, shown[i], "svg");
-        status = figure ? fst_figure_sweep(database, &shown[i], 1, FST_SHOWN_AS_GIVEN, figure, error)
+        status = figure ? fst_figure_sweep(database, &as_map, figure, error)
                         : fst_fail(error, FST_NO_MEMORY, "paper", "no memory for a file name");
         free(figure);
     }

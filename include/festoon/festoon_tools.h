@@ -375,13 +375,36 @@ FST_API void fst_sweep_table_free(fst_sweep_table *table);
 /* Read only the grid; free it with fst_grid_free(). */
 FST_API fst_status fst_sweep_read_grid(const char *path, fst_grid **grid, fst_error *error);
 
-/* Draw a sweep: over one axis curves of the keys; over two axes a map of one key, or of regimes where the key
- * is `regime`.  With count = 0 the keys are chosen: mean r and its deviation, the mean angular velocity and the
- * regime over one axis; the regime over two.  An axis with logarithmic spacing is drawn logarithmically.
- * As given: laboratory units where a varied parameter has one (Hz, mm), otherwise scaled ones.  FST_BAD_INPUT:
- * more than two axes, more than one key on a map, or units that a varied parameter changes. */
-FST_API fst_status fst_figure_sweep(const char *path, const char *const *keys, int count, fst_shown_units units,
-                                    const char *out, fst_error *error);
+/* Which part of a sweep a figure shows, and how; all zeros: what suits it. */
+#define FST_SWEEP_FIGURE_KEYS 8
+typedef struct fst_sweep_figure {
+    fst_figure_kind
+        kind; /* FST_FIGURE_CURVES or FST_FIGURE_MAP; another: curves over one axis, and over two where one of
+                             them has at most seven values, else a map */
+    const char *keys
+        [FST_SWEEP_FIGURE_KEYS]; /* NULL ends a shorter list, an empty one is chosen: mean r, its deviation, the
+                                                mean angular velocity and the regime; of a map the regime */
+    fst_shown_units
+        units; /* as given: laboratory units where a varied parameter has one (Hz, mm), otherwise scaled */
+    const char *at
+        [FST_AXIS_LIMIT]; /* "KEY=VALUE": only the points where this axis has this value; NULL ends the list */
+} fst_sweep_figure;
+
+/* Draw a sweep: over one axis curves of the keys; over two a map of one key, or of regimes where the key is `regime`, or a
+ * curve for each value of the axis that has fewer.  An axis with logarithmic spacing is drawn logarithmically.
+ * FST_BAD_INPUT: more than two axes, more than one key on a map, no points with such a value, or units that a varied
+ * parameter changes.  NULL for options: all zeros. */
+FST_API fst_status fst_figure_sweep(const char *path, const fst_sweep_figure *options, const char *out,
+                                    fst_error *error);
+
+/* Lay up to FST_CHARTS_OVER sweeps and branches over one parameter over each other, or as many trajectories, in one
+ * figure, whose key says what differs between their scenes, or names the files where nothing does.  `trajectories` and
+ * `sweeps` (NULL: the defaults) say what of each is shown, `observable` (NULL: chosen) what of a branch.
+ * FST_BAD_INPUT: files that have no axis in common. */
+enum { FST_CHARTS_OVER = 8 };
+FST_API fst_status fst_figure_over(const char *const *paths, int count, const fst_figure_options *trajectories,
+                                   const fst_sweep_figure *sweeps, const char *observable, const char *out,
+                                   fst_error *error);
 
 /* Whether a file begins as a sweep's database does.  A file that cannot be opened does not; reading it says why.
  * FST_IO: reading it failed. */

@@ -190,6 +190,8 @@ typedef struct fst_branch {
     int complete;              /* 0: the caller stopped it before its end */
     double half_length, gamma; /* magnet.half_length (m) and friction.gamma (1/s), by which everything here is
                                   scaled; NAN: the file from which it was read does not say */
+    fst_params
+        *scene; /* of the file from which it was read; NULL: it does not say, or the branch is of no file */
 } fst_branch;
 
 typedef struct fst_branch_options {

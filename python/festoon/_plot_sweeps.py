@@ -149,7 +149,7 @@ def _about_sweep(s: Any) -> str:
     count = int(s.computed.sum())
     part = f" at {100 * count / s.size:.3g} % of {s.size} points" if s.refined else ""
     of = "" if s.refined or count == s.size else f" of {s.size}"
-    part += " (interrupted)" if of else ""
+    part += " (not complete)" if of else ""
     return f"{words}{count}{of} runs of {base.run__periods:g} turns of the magnet{part}"
 
 

@@ -4,12 +4,12 @@ import os
 from typing import Any, Dict, Iterable, List, Optional, Tuple, Union
 
 from ._errors import BadInput
-from ._native import call, ffi, lib, options_of, path_bytes, places_of, strings, text_of
+from ._native import call, ffi, lib, options_of, path_bytes, places_of, text_of
 from ._quantities import units_of
 
 Path = Union[str, "os.PathLike[str]"]
 
-__all__ = ["branch", "field", "points", "sweep", "trajectory"]
+__all__ = ["branch", "field", "over", "points", "sweep", "trajectory"]
 
 KINDS = places_of(lib.pyf_figures)
 
@@ -139,8 +139,29 @@ def field(bead: Any, path: Path, units: str) -> None:
     call(lib.fst_figure_field, bead._params, units_of(units), path_bytes(path))
 
 
-def sweep(database: Path, path: Path, keys: Iterable[str] = (), units: str = "given") -> None:
-    """Draw a sweep's database: curves of the keys over one axis, a map of one key over two.
+def _sweep_options(kind: Optional[str], keys: Iterable[str], units: str, at: Dict[str, Any]) -> Tuple[Any, List[Any]]:
+    """A struct of what is shown of a sweep, and what must stay alive with it."""
+    options = ffi.new("fst_sweep_figure *")
+    kept: List[Any] = []
+    if kind is not None:
+        if kind not in KINDS:
+            raise BadInput("kind", f'unknown kind "{kind}"; there are {", ".join(KINDS)}')
+        options.kind = KINDS[kind]
+    options.units = units_of(units)
+    for field, words in (("keys", list(keys)), ("at", [f"{key}={value}" for key, value in at.items()])):
+        if len(words) > len(getattr(options, field)):
+            raise BadInput(field, f"at most {len(getattr(options, field))} can be given")
+        for i, word in enumerate(words):
+            kept.append(ffi.new("char[]", word.encode()))
+            getattr(options, field)[i] = kept[-1]
+    return options, kept
+
+
+def sweep(
+    database: Path, path: Path, keys: Iterable[str] = (), units: str = "given", *, kind: Optional[str] = None,
+    at: Optional[Dict[str, Any]] = None,
+) -> None:
+    """Draw a sweep's database: curves of the keys over one axis; over two a map of one key, or a family of curves.
 
     Parameters
     ----------
@@ -152,6 +173,10 @@ def sweep(database: Path, path: Path, keys: Iterable[str] = (), units: str = "gi
         What is drawn; none: the program chooses.
     units
         "given", "lab", "scaled" or "si".
+    kind
+        "curves" or "map"; None: curves where one of two axes has at most seven values.
+    at
+        Values of axes, ``{"friction.mu": 0.2}``: only the points that have them.
 
     Raises
     ------
@@ -162,8 +187,59 @@ def sweep(database: Path, path: Path, keys: Iterable[str] = (), units: str = "gi
     Unavailable
         Where gnuplot or the ending's converter is missing.
     """
-    words, kept = strings(list(keys))
-    call(lib.fst_figure_sweep, path_bytes(database), words, len(kept), units_of(units), path_bytes(path))
+    options, kept = _sweep_options(kind, keys, units, at or {})
+    call(lib.fst_figure_sweep, path_bytes(database), options, path_bytes(path))
+    del kept
+
+
+def over(
+    files: Iterable[Path], path: Path, kind: str = "path", *, keys: Iterable[str] = (), units: str = "given",
+    observable: str = "", at: Optional[Dict[str, Any]] = None, **given: Any
+) -> None:
+    """Lay sweeps and branches, or trajectories, over each other; the key says what differs between their scenes.
+
+    Parameters
+    ----------
+    files
+        At most eight: databases of sweeps and branches (JSON) over one parameter, or trajectories.
+    path
+        The picture.
+    kind
+        Of trajectories: path, time, section or ramp.
+    keys
+        Columns of trajectories, or keys of sweeps.
+    units
+        "given", "lab", "scaled" or "si".
+    observable
+        What is shown of branches.
+    at
+        Values of axes of sweeps, as of `sweep`.
+    **given
+        Options of `Trajectory.figure`.
+
+    Raises
+    ------
+    BadInput
+        Where files have no axis in common.
+    MissingFile
+        Where a file is not there.
+    Unavailable
+        Where gnuplot or the ending's converter is missing.
+    """
+    words = list(keys)
+    sweeps, kept = _sweep_options(None, words, units, at or {})
+    options = options_of(lib.fst_default_figure_options())
+    kept += set_options(options, {**given, "units": units}, "figures.over")
+    options.kind = KINDS[kind] if kind in KINDS else lib.FST_FIGURE_COUNT
+    for i, word in enumerate(words[:lib.FST_FIGURE_KEYS] if kind != "path" else []):
+        kept.append(ffi.new("char[]", word.encode()))
+        options.keys[i] = kept[-1]
+    names = [ffi.new("char[]", path_bytes(file)) for file in files]
+    call(
+        lib.fst_figure_over, ffi.new("const char *[]", names), len(names), options, sweeps,
+        observable.encode() if observable else ffi.NULL, path_bytes(path),
+    )
+    del kept
 
 
 def points(results: Path, measured: Path, path: Path) -> Tuple[float, int, int]:

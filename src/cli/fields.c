@@ -13,7 +13,10 @@ static const struct {
     {"fst_sweep_options.checkpoint_seconds", "--checkpoint"},
     {"fst_sweep_export.out", "-o"},
     {"fst_sweep_read.keys", "--key"},
-    {"fst_figure_sweep.keys", "--key"},
+    {"fst_sweep_figure.keys", "--key"},
+    {"fst_sweep_figure.at", "--at"},
+    {"fst_sweep_figure.kind", "--kind"},
+    {"fst_figure_over", "plot"},
     {"fst_sweep_export_keys.keys", "--key"},
     {"fst_figure_sweep.units", "--units"},
     {"fst_figure_branch.units", "--units"},
@@ -57,7 +60,7 @@ static const struct {
     {"fst_locked_find()", "festoon locked"},     {"fst_sweep_export()", "festoon export"},
     {"fst_sweep()", "festoon sweep -o FILE.db"}, {"fst_branch_write()", "festoon branch -o FILE.json"},
     {"fst_run_json()", "festoon run --json"},    {"fst_track_options.scale", "--scale"},
-    {"fst_measure_options.drive", "--drive"},
+    {"fst_measure_options.drive", "--drive"},    {"fst_sweep_figure.at", "--at KEY=VALUE"},
 };
 
 void name_commands(const char *sentence, char *text, size_t size)

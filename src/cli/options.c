@@ -61,8 +61,9 @@ static int is_option(const option *table, const char *word)
 
 static fst_status keep_option(arguments *given, const option *row, const char *value, fst_error *error)
 {
-    if (strcmp(row->name, "set") != 0 && strcmp(row->name, "over") != 0 && strcmp(row->name, "given") != 0 &&
-        option_value(given, row->name))
+    const int may_repeat = strcmp(row->name, "over") == 0 || strcmp(row->name, "given") == 0 ||
+                           (row->value && strcmp(row->value, "KEY=VALUE") == 0);
+    if (!may_repeat && option_value(given, row->name))
         return fail(error, FST_BAD_INPUT, "", "--%s is given twice", row->name);
     if (given->option_count == OPTION_LIMIT)
         return fail(error, FST_BAD_INPUT, "", "there are more than %d options", OPTION_LIMIT);

@@ -14,10 +14,14 @@ static const option options[] = {
      "column against another where Phi passes 90 degrees), ramp (columns against the drive of a ramp, for "
      "which\n"
      "it is the kind without this option); of several beads: path or groups (distances, contacts and loads);\n"
-     "of one in a world: path or lag (of the moment behind the field, the portrait of a lock)"},
+     "of one in a world: path or lag (of the moment behind the field, the portrait of a lock); of a sweep "
+     "over\n"
+     "two axes: curves (one for each value of an axis; where it has at most seven, without this option) or "
+     "map"},
     {"key", '\0', "KEY,...",
      "of a sweep: the keys of festoon run to draw (regime: a map of regimes); of the kinds time, section and\n"
      "ramp: the columns of the trajectory (r,n_z)"},
+    {"at", '\0', "KEY=VALUE", "of a sweep: only the points where this axis has this value; once for each axis"},
     UNITS_OPTION,
     {"colour", '\0', "COLUMN", "the column that colours the path: n_z, slip, angle, ..."},
     {"arrows", '\0', NULL, "draw arrows of the horizontal moment"},
@@ -147,20 +151,48 @@ static fst_status plot_branch(const arguments *given, const char *path, const ch
     return status;
 }
 
-/* Draw a sweep: curves over one axis, a map over two. */
-static fst_status plot_sweep(const arguments *given, const char *path, const char *to, fst_error *error)
+/* --kind, --key, --units and every --at of a sweep. */
+static fst_status read_sweep_figure(const arguments *given, fst_sweep_figure *figure, char words[KEYS_SIZE],
+                                    fst_error *error)
 {
     const char *text = option_value(given, "key"), *keys[KEY_LIMIT];
-    char words[KEYS_SIZE];
-    int count = 0;
-    fst_shown_units units;
-    fst_status status = refuse_others(given, "key|units|points", "a sweep", error);
+    int count = 0, place = FST_FIGURE_PATH, at = 0;
+    *figure = (fst_sweep_figure){.kind = FST_FIGURE_PATH};
+    fst_status status =
+        read_choice("--kind", option_value(given, "kind"), "kind", FST_WORDS(FST_FIGURES), &place, error);
+    figure->kind = (fst_figure_kind)place;
     if (status == FST_OK)
-        status = read_units(given, &units, error);
+        status = read_units(given, &figure->units, error);
     if (status == FST_OK && text)
         status = read_keys(text, words, keys, &count, error);
+    if (status == FST_OK && count > FST_SWEEP_FIGURE_KEYS)
+        status = fail(error, FST_BAD_INPUT, "--key", "a figure shows at most %d keys", FST_SWEEP_FIGURE_KEYS);
+    for (int i = 0; i < count && status == FST_OK; ++i)
+        figure->keys[i] = keys[i];
+    for (int i = 0; i < given->option_count && status == FST_OK; ++i)
+        if (strcmp(given->options[i].row->name, "at") == 0) {
+            if (at < FST_AXIS_LIMIT)
+                figure->at[at++] = given->options[i].value;
+            else
+                status = fail(error, FST_BAD_INPUT, "--at", "a sweep has at most %d axes", FST_AXIS_LIMIT);
+        }
+    return status;
+}
+
+/* Draw a sweep: curves over one axis, a map or a family of curves over two. */
+static fst_status plot_sweep(const arguments *given, const char *path, const char *to, fst_error *error)
+{
+    fst_sweep_figure figure;
+    char words[KEYS_SIZE];
+    const char *kind = option_value(given, "kind");
+    fst_status status = refuse_others(given, "kind|key|at|units|points", "a sweep", error);
     if (status == FST_OK)
-        status = fst_figure_sweep(path, keys, count, units, to, error);
+        status = read_sweep_figure(given, &figure, words, error);
+    if (status == FST_OK && kind && figure.kind != FST_FIGURE_CURVES && figure.kind != FST_FIGURE_MAP)
+        status =
+            fail(error, FST_BAD_INPUT, "--kind", "%s is of trajectories; a sweep has curves and map", kind);
+    if (status == FST_OK)
+        status = fst_figure_sweep(path, &figure, to, error);
     if (status == FST_OK)
         tell_written(to, "");
     return status;
@@ -206,6 +238,28 @@ static fst_status plot_beads(const arguments *given, const fst_figure_options *f
     return status;
 }
 
+/* Lay several files over each other. */
+static fst_status plot_several(const arguments *given, const char *to, fst_error *error)
+{
+    fst_sweep_figure sweeps;
+    fst_figure_options trajectories;
+    char words[2][KEYS_SIZE];
+    fst_status status =
+        refuse_others(given, "kind|key|at|observable|units|frame|from|to|zoom", "several files", error);
+    if (status == FST_OK)
+        status = read_sweep_figure(given, &sweeps, words[0], error);
+    if (status == FST_OK)
+        status = read_figure(given, &trajectories, error);
+    if (status == FST_OK && option_value(given, "kind") && trajectories.kind != FST_FIGURE_PATH)
+        status = read_columns(given, &trajectories, words[1], error);
+    if (status == FST_OK)
+        status = fst_figure_over(given->operands, given->operand_count, &trajectories, &sweeps,
+                                 option_value(given, "observable"), to, error);
+    if (status == FST_OK)
+        tell_written(to, "");
+    return status;
+}
+
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     (void)out;
@@ -216,6 +270,8 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         return fail(error, FST_BAD_INPUT, "", "a trajectory is missing: make one with festoon run -o FILE.h5");
     if (!to)
         return fail(error, FST_BAD_INPUT, "", "say where the figure goes: -o FIG.svg");
+    if (given->operand_count > 1)
+        return plot_several(given, to, error);
     if (option_value(given, "points"))
         return plot_points(given, path, to, error);
     if (ends_in(path, ".json")) /* a branch */
@@ -252,11 +308,12 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command plot_command = {
     .name = "plot",
-    .synopsis = "FILE.(h5|csv|json|db) -o FIG.(svg|pdf|png) [options]",
-    .summary = "Draw a trajectory of run, a branch of branch -o, or the rows of a sweep",
+    .synopsis = "FILE.(h5|csv|json|db)... -o FIG.(svg|pdf|png) [options]",
+    .summary =
+        "Draw a trajectory of run, a branch of branch -o, or the rows of a sweep; or several over each other",
     .details = "",
     .options = options,
-    .most_operands = 1,
+    .most_operands = FST_CHARTS_OVER,
     .has_helpers = 1,
     .perform = perform,
 };

@@ -24,32 +24,84 @@ static int may_be_told(const fst_param_info *row)
            strcmp(row->key, "world.frame") != 0;
 }
 
+/* Append "key value" behind a comma to a text that began at `begun`; 0: it would be longer than LONGEST there, or than
+ * `size`. */
+static int tell(const fst_params *params, int index, char *text, size_t size, size_t begun)
+{
+    const fst_param_info *row = fst_param_at(index);
+    char value[64];
+    double number;
+    if (!fst_params_get(params, index, value, sizeof value) && fst_param_other_form(row->key))
+        return 1; /* the quantity is given in its other form, which is told */
+    if (row->kind != FST_KIND_CHOICE && fst_parse_value(value, row->unit, &number, NULL) == FST_OK)
+        (void)fst_value_write(value, sizeof value, number, row->unit);
+    const size_t used = strlen(text), length = strlen(row->key) + strlen(value) + 3;
+    if (used - begun + length > LONGEST || used + length + 16 > size)
+        return 0;
+    (void)snprintf(text + used, size - used, "%s%s %s", used && text[used - 1] != ' ' ? ", " : "", row->key,
+                   value[0] ? value : "not given");
+    return 1;
+}
+
+static int agree(const fst_params *one, const fst_params *other, int index)
+{
+    char values[2][64];
+    (void)fst_params_get(one, index, values[0], sizeof values[0]);
+    (void)fst_params_get(other, index, values[1], sizeof values[1]);
+    return strcmp(values[0], values[1]) == 0;
+}
+
+static void count_left(char *text, size_t size, int left)
+{
+    if (left)
+        (void)snprintf(text + strlen(text), size - strlen(text), " and %d more", left);
+}
+
 void fst_caption(const fst_params *params, const char *const *shown, int count, char *text, size_t size)
 {
     const fst_params usual = fst_default_params();
-    size_t used = strlen(text);
-    const size_t begun = used;
+    const size_t begun = strlen(text);
     int left = 0;
     for (int i = 0; i < fst_param_count(); ++i) {
+        char value[64];
         const fst_param_info *row = fst_param_at(i);
-        char value[64], other[64];
-        if (!may_be_told(row) || is_among(row->key, shown, count) ||
-            !fst_params_get(params, i, value, sizeof value))
-            continue;
-        (void)fst_params_get(&usual, i, other, sizeof other);
-        if (strcmp(value, other) == 0)
-            continue;
-        double number;
-        if (row->kind != FST_KIND_CHOICE && fst_parse_value(value, row->unit, &number, NULL) == FST_OK)
-            (void)fst_value_write(value, sizeof value, number, row->unit);
-        const size_t length = strlen(row->key) + strlen(value) + 3;
-        if (used - begun + length > LONGEST || used + length + 16 > size) {
-            ++left;
-            continue;
-        }
-        used += (size_t)snprintf(text + used, size - used, "%s%s %s", used && text[used - 1] != ' ' ? ", " : "",
-                                 row->key, value);
+        if (may_be_told(row) && !is_among(row->key, shown, count) &&
+            fst_params_get(params, i, value, sizeof value) && !agree(params, &usual, i))
+            left += !tell(params, i, text, size, begun);
     }
-    if (left)
-        (void)snprintf(text + used, size - used, " and %d more", left);
+    count_left(text, size, left);
+}
+
+/* Whether these scenes have one value of a key. */
+static int all_agree(const fst_params *const *scenes, int count, int index)
+{
+    int i = 1;
+    while (i < count && agree(scenes[0], scenes[i], index))
+        ++i;
+    return i == count;
+}
+
+void fst_caption_differences(const fst_params *const *scenes, int count, const char *const *shown,
+                             int shown_count, char (*names)[FST_CAPTION_SIZE], char *same, size_t size)
+{
+    const fst_params usual = fst_default_params();
+    int left[2] = {0, 0};
+    same[0] = '\0';
+    for (int i = 0; i < count; ++i)
+        names[i][0] = '\0';
+    for (int k = 0; k < fst_param_count(); ++k) {
+        if (!may_be_told(fst_param_at(k)) || is_among(fst_param_at(k)->key, shown, shown_count))
+            continue;
+        if (!all_agree(scenes, count, k)) {
+            int all = 1;
+            for (int i = 0; i < count; ++i)
+                all &= tell(scenes[i], k, names[i], FST_CAPTION_SIZE, 0);
+            left[0] += !all;
+        } else if (!agree(scenes[0], &usual, k)) {
+            left[1] += !tell(scenes[0], k, same, size, 0);
+        }
+    }
+    for (int i = 0; i < count; ++i)
+        count_left(names[i], FST_CAPTION_SIZE, left[0]);
+    count_left(same, size, left[1]);
 }

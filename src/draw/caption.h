@@ -8,4 +8,11 @@
  * the default scene, but for the `count` keys that the figure shows anyway. */
 void fst_caption(const fst_params *params, const char *const *shown, int count, char *text, size_t size);
 
+enum { FST_CAPTION_SIZE = 192 };
+
+/* What differs between scenes, for each of them: "friction.law coulomb" beside "friction.law viscous"; "" for all where nothing
+ * does.  `same`: what is equal in all and not the default. */
+void fst_caption_differences(const fst_params *const *scenes, int count, const char *const *shown,
+                             int shown_count, char (*names)[FST_CAPTION_SIZE], char *same, size_t size);
+
 #endif

@@ -506,6 +506,18 @@ const char *fst_chart_text(fst_chart *chart, const char *text)
     return copy ? memcpy(copy, text, size) : NULL;
 }
 
+void fst_chart_adopt(fst_chart *chart, fst_chart *other)
+{
+    block *last = other->memory;
+    while (last && last->next)
+        last = last->next;
+    if (!last)
+        return;
+    last->next = chart->memory;
+    chart->memory = other->memory;
+    other->memory = NULL;
+}
+
 void fst_chart_free(fst_chart *chart)
 {
     fst_keep_free(chart ? chart->memory : NULL);

@@ -17,4 +17,7 @@ fst_chart *fst_chart_new(void);
 void *fst_chart_keep(fst_chart *chart, size_t size);
 const char *fst_chart_text(fst_chart *chart, const char *text);
 
+/* Give a chart all that another one owns. */
+void fst_chart_adopt(fst_chart *chart, fst_chart *other);
+
 #endif

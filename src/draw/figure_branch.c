@@ -6,6 +6,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "draw/caption.h"
 #include "draw/chart.h"
 
 enum {
@@ -464,10 +465,13 @@ static fst_status arrange(fst_chart *chart, const fst_branch *b, const shown *s,
 {
     static const fst_chart_mark axis = {0.0, "left of it disturbances die away"};
     const int circle = !s->what && !has_eigenvalues(b), rates = !s->what && !circle;
-    char title[256];
+    char title[256], about[256] = "";
     make_title(b, s, title, sizeof title);
+    if (b->scene)
+        fst_caption(b->scene, (const char *[]){b->key, b->second_key}, 2, about, sizeof about);
     fst_chart_panel *panel = fst_chart_keep(chart, sizeof *panel);
     chart->title = fst_chart_text(chart, title);
+    chart->about = about[0] ? fst_chart_text(chart, about) : NULL;
     chart->x_label = fst_chart_text(chart, s->x.label);
     const char *y_label = fst_chart_text(chart, s->y.label);
     if (!panel || !chart->title || !chart->x_label || !y_label)

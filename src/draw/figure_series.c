@@ -1,13 +1,11 @@
 /* figure_series.c - any columns of a trajectory: against time, on the Poincare section, and over a ramp. */
 #include "draw/figure_trajectory.h"
 
+#include <math.h>
+
 #include "base/constants.h"
 #include "base/error.h"
-#include <festoon/festoon_tools.h>
 #include "draw/view.h"
-
-#include <stdlib.h>
-#include <string.h>
 
 enum {
     PARTS = 8,        /* the most pieces of the smooth curve between two samples */
@@ -45,9 +43,25 @@ static fst_status choose(const fst_view *view, const fst_figure_options *options
     return status;
 }
 
-static fst_status no_memory(const char *out, size_t rows, fst_error *error)
+static fst_status no_memory(size_t rows, fst_error *error)
 {
-    return fst_fail(error, FST_NO_MEMORY, out, "no memory for %zu samples", rows);
+    return fst_fail(error, FST_NO_MEMORY, "fst_figure_trajectory", "no memory for %zu samples", rows);
+}
+
+/* Give a chart its title, the line below it, the label of its abscissa and panels with their ordinates' labels.  0: no
+ * memory. */
+static int dress(fst_chart *chart, const fst_view *view, const char *title, const char *about,
+                 const char *x_label, fst_chart_panel *panels, const chosen *c, int first)
+{
+    chart->title = fst_chart_text(chart, view->title ? view->title : title);
+    chart->about = fst_chart_text(chart, about);
+    chart->x_label = fst_chart_text(chart, x_label);
+    chart->panels = panels;
+    chart->panel_count = c->count - first;
+    int good = chart->title && chart->about && chart->x_label;
+    for (int k = 0; k < chart->panel_count && good; ++k)
+        good = (panels[k].left_label = fst_chart_text(chart, c->shown[first + k].label)) != NULL;
+    return good;
 }
 
 /* A range of values with room about it that is at least `least`. */
@@ -70,13 +84,13 @@ static void range_of(const double *values, size_t count, double least, double *l
 
 /* ------------------------------------------------------------------ time */
 
-/* Put one column against time; returns the number of points. */
-static size_t put_series(const fst_view *view, const chosen *c, int k, const double *t, double time,
-                         double *memory, double *x, double *y)
+/* Put one column against the time since `begin`; returns the number of points. */
+static size_t put_series(const fst_view *view, const chosen *c, int k, const double *t, double begin,
+                         double time, double *memory, double *x, double *y)
 {
     const size_t rows = view->last - view->first;
     for (size_t i = 0; i < rows; ++i) {
-        memory[i] = time * t[view->first + i];
+        memory[i] = time * (t[view->first + i] - begin);
         memory[rows + i] = c->shown[k].factor * c->values[k][view->first + i];
     }
     /* Dry friction makes corners, which are no fault of the drawing. */
@@ -85,53 +99,47 @@ static size_t put_series(const fst_view *view, const chosen *c, int k, const dou
     return fst_smooth(memory, memory + rows, rows, parts, memory[rows - 1] - memory[0], INFINITY, x, y);
 }
 
-static fst_status draw_time(const fst_view *view, const chosen *c, const char *out, fst_error *error)
+static fst_status fill_time(const fst_view *view, const chosen *c, int from_zero, fst_chart *chart,
+                            fst_error *error)
 {
     const double *t;
     const fst_column_info *info;
     fst_status status = fst_view_column(view, "t", &t, &info, error);
     const size_t rows = view->last - view->first, room = PARTS * rows;
-    double *memory = malloc((2 * rows + 2 * room * (size_t)c->count) * sizeof *memory);
-    if (status == FST_OK && !memory)
-        status = no_memory(out, rows, error);
-    if (status != FST_OK) {
-        free(memory);
+    double *memory = fst_chart_keep(chart, (2 * rows + 2 * room * (size_t)c->count) * sizeof *memory);
+    fst_chart_curve *curves = fst_chart_keep(chart, FST_FIGURE_KEYS * sizeof *curves);
+    fst_chart_panel *panels = fst_chart_keep(chart, FST_FIGURE_KEYS * sizeof *panels);
+    if (status == FST_OK && !(memory && curves && panels))
+        status = no_memory(rows, error);
+    if (status != FST_OK)
         return status;
-    }
     const fst_quantity time = fst_view_quantity(view, info);
-    fst_chart_curve curves[FST_FIGURE_KEYS];
-    fst_chart_panel panels[FST_FIGURE_KEYS];
+    const double begin = from_zero ? t[view->first] : 0.0;
     for (int k = 0; k < c->count; ++k) {
         double *x = memory + 2 * rows + 2 * room * (size_t)k, *y = x + room;
-        const size_t count = put_series(view, c, k, t, time.factor, memory, x, y);
+        const size_t count = put_series(view, c, k, t, begin, time.factor, memory, x, y);
         curves[k] = (fst_chart_curve){
             .x = x, .y = y, .count = count, .colour = FST_COLOUR_BLUE, .style = FST_CURVE_LINE};
-        panels[k] = (fst_chart_panel){
-            .left_label = c->shown[k].label, .low = NAN, .high = NAN, .curves = &curves[k], .curve_count = 1};
+        panels[k] = (fst_chart_panel){.low = NAN, .high = NAN, .curves = &curves[k], .curve_count = 1};
         range_of(y, count, 0.0, &panels[k].low, &panels[k].high);
     }
-    const fst_chart chart = {.title = view->title ? view->title : "The motion against time",
-                             .about = view->about,
-                             .x_label = time.label,
-                             .x_low = time.factor * t[view->first],
-                             .x_high = time.factor * t[view->last - 1],
-                             .height = c->count > 3 ? 140 : 0,
-                             .panels = panels,
-                             .panel_count = c->count};
-    status = fst_figure_chart(out, &chart, error);
-    free(memory);
-    return status;
+    chart->x_low = time.factor * (t[view->first] - begin);
+    chart->x_high = time.factor * (t[view->last - 1] - begin);
+    chart->height = c->count > 3 ? 140 : 0;
+    return dress(chart, view, "The motion against time", view->about, time.label, panels, c, 0)
+               ? FST_OK
+               : no_memory(rows, error);
 }
 
-fst_status fst_figure_time(const fst_table *table, const char *out, const fst_figure_options *options,
-                           fst_error *error)
+fst_status fst_chart_time(const fst_table *table, const fst_figure_options *options, int from_zero,
+                          fst_chart *chart, fst_error *error)
 {
     fst_view view;
     chosen c;
     fst_status status = fst_view_of(&view, table, options, error);
     if (status == FST_OK)
         status = choose(&view, options, "r", "n_z", &c, error);
-    return status == FST_OK ? draw_time(&view, &c, out, error) : status;
+    return status == FST_OK ? fill_time(&view, &c, from_zero, chart, error) : status;
 }
 
 /* ------------------------------------------------------------------ the Poincare section */
@@ -206,47 +214,45 @@ static size_t put_motion(const fst_view *view, const chosen *c, double *x, doubl
 
 /* The points of a closed orbit all lie at one place, which means nothing without the orbit about it.  `motion` has
  * room for the samples twice. */
-static fst_status draw_section(const fst_view *view, const chosen *c, const double *x, const double *y,
-                               size_t count, double *motion, const char *out, fst_error *error)
+static fst_status fill_section(const fst_view *view, const chosen *c, const double *x, const double *y,
+                               size_t count, double *motion, fst_chart *chart, fst_error *error)
 {
     char about[320];
-    double low, high;
     const int one = is_one_point(view, c, 0, x, count) && is_one_point(view, c, 1, y, count);
     double *const motion_x = motion, *const motion_y = motion + (view->last - view->first);
     const size_t drawn = one ? put_motion(view, c, motion_x, motion_y) : 0;
-    const fst_chart_curve curves[] = {{.title = one ? "the passages of Φ = 90°" : NULL,
-                                       .x = x,
-                                       .y = y,
-                                       .count = count,
-                                       .colour = FST_COLOUR_BLUE,
-                                       .style = count > MANY_DOTS && !one ? FST_CURVE_DOTS : FST_CURVE_POINTS},
-                                      {.title = "the motion between them",
-                                       .x = motion_x,
-                                       .y = motion_y,
-                                       .count = drawn,
-                                       .colour = FST_COLOUR_GREY,
-                                       .style = FST_CURVE_THIN}};
-    fst_chart_panel panel = {.left_label = c->shown[1].label, .curves = curves, .curve_count = one ? 2 : 1};
-    range_of(one ? motion_x : x, one ? drawn : count, least_span(view, c, 0), &low, &high);
-    range_of(one ? motion_y : y, one ? drawn : count, least_span(view, c, 1), &panel.low, &panel.high);
+    fst_chart_curve *curves = fst_chart_keep(chart, 2 * sizeof *curves);
+    fst_chart_panel *panel = fst_chart_keep(chart, sizeof *panel);
+    if (!curves || !panel)
+        return no_memory(count, error);
+    curves[0] = (fst_chart_curve){.title = one ? "the passages of Φ = 90°" : NULL,
+                                  .x = x,
+                                  .y = y,
+                                  .count = count,
+                                  .colour = FST_COLOUR_BLUE,
+                                  .style = count > MANY_DOTS && !one ? FST_CURVE_DOTS : FST_CURVE_POINTS};
+    curves[1] = (fst_chart_curve){.title = "the motion between them",
+                                  .x = motion_x,
+                                  .y = motion_y,
+                                  .count = drawn,
+                                  .colour = FST_COLOUR_GREY,
+                                  .style = FST_CURVE_THIN};
+    *panel = (fst_chart_panel){.curves = curves, .curve_count = one ? 2 : 1};
+    range_of(one ? motion_x : x, one ? drawn : count, least_span(view, c, 0), &chart->x_low, &chart->x_high);
+    range_of(one ? motion_y : y, one ? drawn : count, least_span(view, c, 1), &panel->low, &panel->high);
     (void)snprintf(about, sizeof about,
                    one ? "%.200s; all %zu passages at one place: the orbit is closed"
                        : "%.200s; a point for each of %zu passages",
                    view->about, count);
-    const fst_chart chart = {.title =
-                                 view->title ? view->title : "Poincaré section at Φ = 90°, passed downwards",
-                             .about = about,
-                             .x_label = c->shown[0].label,
-                             .x_low = low,
-                             .x_high = high,
-                             .height = 330,
-                             .panels = &panel,
-                             .panel_count = 1};
-    return fst_figure_chart(out, &chart, error);
+    chart->height = 330;
+    return dress(chart, view, "Poincaré section at Φ = 90°, passed downwards", about, c->shown[0].label, panel,
+                 c, 1)
+               ? FST_OK
+               : no_memory(count, error);
 }
 
-fst_status fst_figure_section(const fst_table *table, const char *out, const fst_figure_options *options,
-                              fst_error *error)
+fst_status fst_chart_section(const fst_table *table, const fst_figure_options *options, fst_chart *chart,
+                             fst_error *error)
 {
     fst_view view;
     chosen c;
@@ -262,19 +268,16 @@ fst_status fst_figure_section(const fst_table *table, const char *out, const fst
     if (status != FST_OK)
         return status;
     const size_t rows = view.last - view.first;
-    double *memory = malloc(4 * rows * sizeof *memory);
+    double *memory = fst_chart_keep(chart, 4 * rows * sizeof *memory);
     if (!memory)
-        return no_memory(out, rows, error);
+        return no_memory(rows, error);
     const size_t count = put_section(&view, &c, bead_angle, memory, memory + rows);
-    if (count == 0)
-        status =
-            fst_fail(error, FST_BAD_INPUT, "fst_figure_options.kind",
+    return count > 0
+               ? fill_section(&view, &c, memory, memory + rows, count, memory + 2 * rows, chart, error)
+               : fst_fail(
+                     error, FST_BAD_INPUT, "fst_figure_options.kind",
                      "the bead's angle Phi against the magnet never passes 90 degrees downwards in the part "
                      "shown, so that there is no section: figures of time show such a motion");
-    else
-        status = draw_section(&view, &c, memory, memory + rows, count, memory + 2 * rows, out, error);
-    free(memory);
-    return status;
 }
 
 /* ------------------------------------------------------------------ ramps */
@@ -283,22 +286,19 @@ fst_status fst_figure_section(const fst_table *table, const char *out, const fst
 typedef struct windows {
     size_t count;
     double *drive, *mean[FST_FIGURE_KEYS], *low[FST_FIGURE_KEYS], *high[FST_FIGURE_KEYS];
-    double *memory;
 } windows;
 
-static int make_windows(windows *w, int keys)
+static int make_windows(fst_chart *chart, windows *w, int keys)
 {
+    double *memory = fst_chart_keep(chart, (size_t)(1 + 3 * keys) * (WINDOWS + 1) * sizeof *memory);
     w->count = 0;
-    w->memory = malloc((size_t)(1 + 3 * keys) * (WINDOWS + 1) * sizeof *w->memory);
-    if (!w->memory)
-        return 0;
-    w->drive = w->memory;
-    for (int k = 0; k < keys; ++k) {
-        w->mean[k] = w->memory + (size_t)(1 + 3 * k) * (WINDOWS + 1);
+    w->drive = memory;
+    for (int k = 0; k < keys && memory; ++k) {
+        w->mean[k] = memory + (size_t)(1 + 3 * k) * (WINDOWS + 1);
         w->low[k] = w->mean[k] + WINDOWS + 1;
         w->high[k] = w->low[k] + WINDOWS + 1;
     }
-    return 1;
+    return memory != NULL;
 }
 
 static void put_window(const chosen *c, const double *omega, double factor, size_t from, size_t to, windows *w)
@@ -340,11 +340,13 @@ static void put_windows(const fst_view *view, const chosen *c, const double *tur
         put_window(c, omega, factor, view->first, view->last, w);
 }
 
-static fst_status draw_ramp(const fst_view *view, const chosen *c, const windows *w, const char *x_label,
-                            const char *out, fst_error *error)
+static fst_status fill_ramp(const fst_view *view, const chosen *c, const windows *w, const char *x_label,
+                            fst_chart *chart, fst_error *error)
 {
-    fst_chart_curve curves[3 * FST_FIGURE_KEYS];
-    fst_chart_panel panels[FST_FIGURE_KEYS];
+    fst_chart_curve *curves = fst_chart_keep(chart, 3 * FST_FIGURE_KEYS * sizeof *curves);
+    fst_chart_panel *panels = fst_chart_keep(chart, FST_FIGURE_KEYS * sizeof *panels);
+    if (!curves || !panels)
+        return no_memory(w->count, error);
     for (int k = 0; k < c->count; ++k) {
         const double *const values[3] = {w->low[k], w->high[k], w->mean[k]};
         for (int i = 0; i < 3; ++i)
@@ -355,33 +357,25 @@ static fst_status draw_ramp(const fst_view *view, const chosen *c, const windows
                                   .count = w->count,
                                   .colour = i < 2 ? FST_COLOUR_SKY : FST_COLOUR_BLUE,
                                   .style = i < 2 ? FST_CURVE_THIN : FST_CURVE_LINE};
-        panels[k] = (fst_chart_panel){.left_label = c->shown[k].label,
-                                      .low = NAN,
-                                      .high = NAN,
-                                      .curves = &curves[3 * k],
-                                      .curve_count = 3};
+        panels[k] = (fst_chart_panel){.low = NAN, .high = NAN, .curves = &curves[3 * k], .curve_count = 3};
     }
-    double low = INFINITY, high = -INFINITY;
+    chart->x_low = INFINITY;
+    chart->x_high = -INFINITY;
     for (size_t i = 0; i < w->count; ++i) {
-        low = fmin(low, w->drive[i]);
-        high = fmax(high, w->drive[i]);
+        chart->x_low = fmin(chart->x_low, w->drive[i]);
+        chart->x_high = fmax(chart->x_high, w->drive[i]);
     }
-    const fst_chart chart = {.title = view->title ? view->title : "The motion on a ramp of the drive",
-                             .about = view->about,
-                             .x_label = x_label,
-                             .x_low = low,
-                             .x_high = high,
-                             .panels = panels,
-                             .panel_count = c->count};
-    return fst_figure_chart(out, &chart, error);
+    return dress(chart, view, "The motion on a ramp of the drive", view->about, x_label, panels, c, 0)
+               ? FST_OK
+               : no_memory(w->count, error);
 }
 
-fst_status fst_figure_ramp(const fst_table *table, const char *out, const fst_figure_options *options,
-                           fst_error *error)
+fst_status fst_chart_ramp(const fst_table *table, const fst_figure_options *options, fst_chart *chart,
+                          fst_error *error)
 {
     fst_view view;
     chosen c;
-    windows w = {.memory = NULL};
+    windows w;
     const double *turns = NULL, *omega = NULL, *bead_angle = NULL;
     const fst_column_info *info = NULL;
     fst_status status = fst_view_of(&view, table, options, error);
@@ -394,13 +388,11 @@ fst_status fst_figure_ramp(const fst_table *table, const char *out, const fst_fi
     if (status == FST_OK && !(fabs(view.omega - view.first_omega) > 1e-9 * view.omega))
         status = fst_fail(error, FST_BAD_INPUT, "fst_figure_options.kind",
                           "the drive is the same in all that is shown: this is no ramp");
-    if (status == FST_OK && !make_windows(&w, c.count))
-        status = no_memory(out, view.last - view.first, error);
-    if (status == FST_OK) {
-        const fst_quantity drive = fst_view_quantity(&view, info);
-        put_windows(&view, &c, turns, bead_angle, omega, drive.factor, &w);
-        status = draw_ramp(&view, &c, &w, drive.label, out, error);
-    }
-    free(w.memory);
-    return status;
+    if (status == FST_OK && !make_windows(chart, &w, c.count))
+        status = no_memory(view.last - view.first, error);
+    if (status != FST_OK)
+        return status;
+    const fst_quantity drive = fst_view_quantity(&view, info);
+    put_windows(&view, &c, turns, bead_angle, omega, drive.factor, &w);
+    return fill_ramp(&view, &c, &w, drive.label, chart, error);
 }

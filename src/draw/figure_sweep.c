@@ -1,30 +1,161 @@
-/* figure_sweep.c - fst_figure_sweep(): choosing which keys of a sweep are shown, as curves or as a map. */
+/* figure_sweep.c - fst_figure_sweep(): which part of a sweep is shown, which keys, and as curves or as a map. */
 #include "draw/figure_sweep.h"
 
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
 #include "base/error.h"
+#include "base/units.h"
+#include "draw/charts_over.h"
 
-enum { MOST_KEYS = 8, USUAL = 4 };
+enum {
+    USUAL = 4,
+    FEW = 7 /* values of an axis, which are a family of curves unless a map is asked for */
+};
 
-/* The axes that vary, one or two. */
-static fst_status axes_of(const fst_grid *grid, const char *path, fst_shown_units units,
-                          fst_sweep_axis axes[FST_AXIS_LIMIT], int *varied, fst_error *error)
+/* What is shown of a sweep, read from its file. */
+typedef struct shown_sweep {
+    fst_sweep_slice slice;
+    fst_sweep_quantity quantities[FST_SWEEP_FIGURE_KEYS];
+    int count, is_map;
+    fst_sweep_table table;
+} shown_sweep;
+
+/* ------------------------------------------------------------------ slices */
+
+static const fst_param_info *row_of(const fst_grid *grid, int axis)
 {
-    *varied = 0;
-    for (int i = 0; i < fst_grid_axis_count(grid); ++i)
-        if (fst_grid_axis_points(grid, i) > 1) {
-            const fst_status status = fst_sweep_axis_of(grid, i, units, &axes[(*varied)++], error);
-            if (status != FST_OK)
-                return status;
-        }
-    if (*varied < 1 || *varied > 2)
-        return fst_fail(error, FST_BAD_INPUT, path,
-                        "a figure shows a sweep over one or two axes; this one has %d: use fst_sweep_export()",
-                        *varied);
+    return fst_param_at(fst_param_find(fst_grid_key(grid, axis)));
+}
+
+/* A value of an axis as people write it. */
+static void write_value(const fst_param_info *row, double value, char *text, size_t size)
+{
+    size_t length;
+    const char *name = row->kind == FST_KIND_CHOICE ? fst_name_at(row->names, (int)value, &length) : NULL;
+    if (name)
+        (void)snprintf(text, size, "%.*s", (int)length, name);
+    else
+        (void)fst_value_write(text, size, value, row->unit);
+}
+
+/* The number that a text says for a key: of a choice, the place of its name. */
+static fst_status read_value(const fst_grid *grid, int axis, const char *text, double *value, fst_error *error)
+{
+    fst_params params = *fst_grid_base(grid);
+    const fst_param_info *row = row_of(grid, axis);
+    char kept[64];
+    const fst_status status = fst_params_set(&params, row->key, text, error);
+    if (status != FST_OK)
+        return status;
+    (void)fst_params_get(&params, fst_param_find(row->key), kept, sizeof kept);
+    if (row->kind != FST_KIND_CHOICE)
+        return fst_parse_value(kept, row->unit, value, error);
+    size_t length;
+    for (int i = 0; *fst_name_at(row->names, i, &length); ++i)
+        if (strlen(kept) == length && strncmp(kept, fst_name_at(row->names, i, &length), length) == 0)
+            *value = i;
     return FST_OK;
 }
 
+/* The axis that a text "KEY=VALUE" names, and its value. */
+static fst_status read_at(const fst_grid *grid, const char *text, int *axis, double *value, fst_error *error)
+{
+    char key[64] = "", names[512] = "", suggestion[FST_SUGGESTION_SIZE];
+    const char *equals = strchr(text, '=');
+    if (equals && equals - text < (ptrdiff_t)sizeof key)
+        (void)snprintf(key, sizeof key, "%.*s", (int)(equals - text), text);
+    *axis = -1;
+    for (int i = 0; i < fst_grid_axis_count(grid); ++i) {
+        const size_t used = strlen(names);
+        (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "", fst_grid_key(grid, i));
+        if (strcmp(key, fst_grid_key(grid, i)) == 0)
+            *axis = i;
+    }
+    if (!equals || *axis < 0)
+        return fst_fail(error, FST_BAD_INPUT, "fst_sweep_figure.at",
+                        equals ? "the sweep does not vary \"%.60s\"; %s" : "\"%.60s\" is not KEY=VALUE; %s",
+                        equals ? key : text, fst_suggest_name(key, names, suggestion));
+    return read_value(grid, *axis, equals + 1, value, error);
+}
+
+/* The place of a value on an axis; FST_BAD_INPUT: it is not there, and the sentence has the nearest. */
+static fst_status find_value(const fst_grid *grid, int axis, double value, int64_t *place, fst_error *error)
+{
+    const int64_t stride = fst_grid_axis_stride(grid, axis);
+    char wanted[64], nearest[64];
+    *place = 0;
+    for (int64_t i = 1; i < fst_grid_axis_points(grid, axis); ++i)
+        if (fabs(fst_grid_value(grid, axis, i * stride) - value) <
+            fabs(fst_grid_value(grid, axis, *place * stride) - value))
+            *place = i;
+    const double found = fst_grid_value(grid, axis, *place * stride);
+    if (fabs(found - value) <= 1e-9 * fmax(fabs(found), fabs(value)))
+        return FST_OK;
+    const fst_param_info *row = row_of(grid, axis);
+    write_value(row, value, wanted, sizeof wanted);
+    write_value(row, found, nearest, sizeof nearest);
+    return fst_fail(error, FST_BAD_INPUT, "fst_sweep_figure.at",
+                    "the sweep has no points at %s = %s; the nearest value is %s", row->key, wanted, nearest);
+}
+
+/* Add to the words of a slice that an axis has this value there. */
+static void tell_value(const fst_grid *grid, int axis, int64_t place, char *words, size_t size)
+{
+    const size_t used = strlen(words);
+    char text[64];
+    write_value(row_of(grid, axis), fst_grid_value(grid, axis, place * fst_grid_axis_stride(grid, axis)), text,
+                sizeof text);
+    (void)snprintf(words + used, size - used, "%s%s %s", used ? ", " : "", fst_grid_key(grid, axis), text);
+}
+
+static int is_random(const fst_grid *grid)
+{
+    for (int i = 0; i < fst_grid_axis_count(grid); ++i)
+        for (int j = 0; j < i; ++j)
+            if (fst_grid_axis_points(grid, i) > 1 && fst_grid_axis_points(grid, j) > 1 &&
+                fst_grid_axis_stride(grid, i) == fst_grid_axis_stride(grid, j))
+                return 1;
+    return 0;
+}
+
+/* The slice that `options` ask for, over one axis or two. */
+static fst_status cut(const fst_grid *grid, const char *path, const fst_sweep_figure *options,
+                      fst_shown_units units, fst_sweep_slice *slice, fst_error *error)
+{
+    int fixed[FST_AXIS_LIMIT] = {0};
+    *slice = (fst_sweep_slice){.varied = 0};
+    fst_status status = FST_OK;
+    for (int i = 0; i < FST_AXIS_LIMIT && options->at[i] && status == FST_OK; ++i) {
+        int axis = 0;
+        int64_t place = 0;
+        double value;
+        status = is_random(grid) ? fst_fail(error, FST_BAD_INPUT, "fst_sweep_figure.at",
+                                            "random points have no slices: use fst_sweep_export()")
+                                 : read_at(grid, options->at[i], &axis, &value, error);
+        if (status == FST_OK)
+            status = find_value(grid, axis, value, &place, error);
+        if (status != FST_OK || fixed[axis]++ || fst_grid_axis_points(grid, axis) < 2)
+            continue;
+        slice->start += place * fst_grid_axis_stride(grid, axis);
+        tell_value(grid, axis, place, slice->words, sizeof slice->words);
+    }
+    for (int i = 0; i < fst_grid_axis_count(grid) && status == FST_OK; ++i)
+        if (fst_grid_axis_points(grid, i) > 1 && !fixed[i])
+            status = fst_sweep_axis_of(grid, i, units, &slice->axes[slice->varied++], error);
+    if (status == FST_OK && (slice->varied < 1 || slice->varied > 2))
+        status = fst_fail(error, FST_BAD_INPUT, path,
+                          "a figure shows a sweep over one or two axes, and there are %d: fst_sweep_figure.at "
+                          "takes those points where another axis has a value",
+                          slice->varied);
+    return status;
+}
+
+/* ------------------------------------------------------------------ keys */
+
 /* The keys that are shown unless others are asked for; returns how many. */
-static int choose_keys(const fst_grid *grid, int varied, const char *keys[USUAL])
+static int choose_keys(const fst_grid *grid, int is_map, const char *keys[USUAL])
 {
     const fst_row_kind kind = fst_grid_row_kind(grid);
     static const char *const curves[][USUAL] = {
@@ -33,7 +164,6 @@ static int choose_keys(const fst_grid *grid, int varied, const char *keys[USUAL]
         [FST_ROWS_OF_WORLDS] = {"mean_r", "mean_alpha_dot", "regime"},
         [FST_ROWS_OF_LEVITATION] = {"below_height_mm", "below_growth_per_s", "above_height_mm",
                                     "above_growth_per_s"}};
-    const int is_map = varied == 2;
     int count = 0;
     for (; count < USUAL && curves[kind][count] && !is_map; ++count)
         keys[count] = curves[kind][count];
@@ -49,44 +179,143 @@ static int choose_keys(const fst_grid *grid, int varied, const char *keys[USUAL]
     return count;
 }
 
-fst_status fst_figure_sweep(const char *path, const char *const *keys, int count, fst_shown_units units,
-                            const char *out, fst_error *error)
+/* A map shows one key over two axes.  Unless it is asked for, an axis of few values makes a family of curves, but for keys
+ * whose values are names, and where points are random. */
+static int wants_map(const fst_grid *grid, const fst_sweep_figure *options, const fst_sweep_slice *slice)
 {
-    fst_sweep_axis axes[FST_AXIS_LIMIT];
-    fst_sweep_quantity quantities[MOST_KEYS];
-    int varied;
+    if (slice->varied < 2)
+        return 0;
+    if (options->kind == FST_FIGURE_CURVES || options->kind == FST_FIGURE_MAP)
+        return options->kind == FST_FIGURE_MAP;
+    const int64_t fewest =
+        slice->axes[0].count < slice->axes[1].count ? slice->axes[0].count : slice->axes[1].count;
+    return fewest > FEW || is_random(grid) || (options->keys[0] && fst_sweep_names_of(options->keys[0]));
+}
+
+static fst_status choose_quantities(const fst_grid *grid, const fst_sweep_figure *options,
+                                    fst_shown_units units, shown_sweep *s, const char **keys, fst_error *error)
+{
+    while (s->count < FST_SWEEP_FIGURE_KEYS && options->keys[s->count]) {
+        keys[s->count] = options->keys[s->count];
+        ++s->count;
+    }
+    if (s->is_map && s->count > 1)
+        return fst_fail(error, FST_BAD_INPUT, "fst_sweep_figure.keys", "a map shows one key, not %d", s->count);
+    if (s->count == 0)
+        s->count = choose_keys(grid, s->is_map, keys);
+    fst_status status = FST_OK;
+    for (int i = 0; i < s->count && status == FST_OK; ++i) {
+        status = fst_sweep_quantity_of(grid, keys[i], units, &s->quantities[i], error);
+        if (status == FST_BAD_INPUT &&
+            options->units == FST_SHOWN_AS_GIVEN) /* the units of the axis cannot show it */
+            status = fst_sweep_quantity_of(grid, keys[i], FST_SHOWN_SCALED, &s->quantities[i], error);
+    }
+    return status;
+}
+
+static fst_status read_sweep(const char *path, const fst_sweep_figure *options, shown_sweep *s,
+                             fst_error *error)
+{
+    const char *keys[FST_SWEEP_FIGURE_KEYS + USUAL];
     fst_grid *grid;
+    *s = (shown_sweep){.count = 0};
     fst_status status = fst_sweep_read_grid(path, &grid, error);
     if (status != FST_OK)
         return status;
-    const int asked = units != FST_SHOWN_AS_GIVEN;
-    if (!asked)
-        units = fst_sweep_units(grid);
-    status = axes_of(grid, path, units, axes, &varied, error);
-    if (status == FST_OK && varied == 2 && count > 1)
-        status = fst_fail(error, FST_BAD_INPUT, "fst_figure_sweep.keys", "a map shows one key, not %d", count);
-    if (status == FST_OK && count > MOST_KEYS)
-        status = fst_fail(error, FST_BAD_INPUT, "fst_figure_sweep.keys", "a figure shows at most %d keys",
-                          MOST_KEYS);
-    const char *usual[USUAL];
-    const int usual_count = choose_keys(grid, varied, usual);
-    const char *const *shown = count > 0 ? keys : usual;
-    const int shown_count = count > 0 ? count : usual_count;
-    for (int i = 0; i < shown_count && status == FST_OK; ++i) {
-        status = fst_sweep_quantity_of(grid, shown[i], units, &quantities[i], error);
-        if (status == FST_BAD_INPUT && !asked) /* the units of the axis cannot show it */
-            status = fst_sweep_quantity_of(grid, shown[i], FST_SHOWN_SCALED, &quantities[i], error);
+    const fst_shown_units units = options->units != FST_SHOWN_AS_GIVEN ? options->units : fst_sweep_units(grid);
+    status = cut(grid, path, options, units, &s->slice, error);
+    if (status == FST_OK) {
+        s->is_map = wants_map(grid, options, &s->slice);
+        status = choose_quantities(grid, options, units, s, keys, error);
     }
+    if (status == FST_OK && options->kind == FST_FIGURE_MAP && !s->is_map)
+        status = fst_fail(error, FST_BAD_INPUT, "fst_sweep_figure.kind", "a map needs a sweep over two axes");
+    if (status == FST_OK && !s->is_map && is_random(grid))
+        status = fst_fail(error, FST_BAD_INPUT, path, "random points make no curves: use fst_sweep_export()");
     fst_grid_free(grid);
     if (status != FST_OK)
         return status;
-    fst_sweep_table table;
-    status = varied == 1 ? fst_sweep_read(path, shown, shown_count, &table, error)
-                         : fst_sweep_read_filled(path, shown, shown_count, &table, error);
-    if (status != FST_OK)
-        return status;
-    status = varied == 1 ? fst_figure_sweep_curves(&table, quantities, shown_count, &axes[0], out, error)
-                         : fst_figure_sweep_map(&table, &quantities[0], axes, out, error);
-    fst_sweep_table_free(&table);
+    return s->is_map ? fst_sweep_read_filled(path, keys, s->count, &s->table, error)
+                     : fst_sweep_read(path, keys, s->count, &s->table, error);
+}
+
+/* ------------------------------------------------------------------ curves */
+
+/* A curve for each value of the axis that has fewer, over the other. */
+static fst_status family_of(const shown_sweep *s, fst_chart **chart, fst_error *error)
+{
+    fst_chart *charts[FST_CHARTS_OVER] = {NULL};
+    char names[FST_CHARTS_OVER][64];
+    const int fewer = s->slice.axes[0].count < s->slice.axes[1].count ? 0 : 1;
+    const fst_sweep_axis *one = &s->slice.axes[fewer];
+    fst_sweep_slice slice = s->slice;
+    slice.varied = 1;
+    slice.axes[0] = s->slice.axes[1 - fewer];
+    if (one->count > FST_CHARTS_OVER)
+        return fst_fail(error, FST_BAD_INPUT, "fst_sweep_figure.kind",
+                        "%lld curves in one figure are too many, %d are the most: a map shows them",
+                        (long long)one->count, FST_CHARTS_OVER);
+    fst_status status = FST_OK;
+    int count = 0;
+    for (int64_t i = 0; i < one->count && status == FST_OK; ++i) {
+        fst_error why = {.where = ""};
+        slice.start = s->slice.start + i * fst_grid_axis_stride(s->table.grid, one->index);
+        names[count][0] = '\0';
+        tell_value(s->table.grid, one->index, i, names[count], sizeof names[count]);
+        status = fst_sweep_curves(&s->table, s->quantities, s->count, &slice, 1, &charts[count], &why);
+        if (status == FST_OK)
+            ++count;
+        else if (status == FST_BAD_INPUT && (count > 0 || i + 1 < one->count))
+            status = FST_OK; /* no point of this curve has a value */
+        else if (error)
+            *error = why;
+    }
+    const char *words[FST_CHARTS_OVER];
+    for (int i = 0; i < count; ++i)
+        words[i] = names[i];
+    if (status == FST_OK)
+        status = fst_charts_over(charts, words, count, "", chart, error);
+    for (int i = 0; i < count; ++i)
+        fst_chart_free(charts[i]);
+    return status;
+}
+
+fst_status fst_chart_of_sweep(const char *path, const fst_sweep_figure *options, int plain, fst_chart **chart,
+                              fst_error *error)
+{
+    shown_sweep s;
+    *chart = NULL;
+    fst_status status = read_sweep(path, options, &s, error);
+    if (status == FST_OK && (s.is_map || (plain && s.slice.varied > 1)))
+        status =
+            fst_fail(error, FST_BAD_INPUT, path,
+                     "a sweep over two axes makes no curve: fst_sweep_figure.at takes those points where one "
+                     "axis has a value");
+    if (status == FST_OK)
+        status = s.slice.varied > 1
+                     ? family_of(&s, chart, error)
+                     : fst_sweep_curves(&s.table, s.quantities, s.count, &s.slice, plain, chart, error);
+    fst_sweep_table_free(&s.table);
+    return status;
+}
+
+fst_status fst_figure_sweep(const char *path, const fst_sweep_figure *options, const char *out,
+                            fst_error *error)
+{
+    const fst_sweep_figure usual = {.kind = FST_FIGURE_PATH};
+    shown_sweep s;
+    fst_status status = read_sweep(path, options ? options : &usual, &s, error);
+    if (status == FST_OK && s.is_map) {
+        status = fst_figure_sweep_map(&s.table, &s.quantities[0], &s.slice, out, error);
+    } else if (status == FST_OK) {
+        fst_chart *chart = NULL;
+        status = s.slice.varied > 1
+                     ? family_of(&s, &chart, error)
+                     : fst_sweep_curves(&s.table, s.quantities, s.count, &s.slice, 0, &chart, error);
+        if (status == FST_OK)
+            status = fst_figure_chart(out, chart, error);
+        fst_chart_free(chart);
+    }
+    fst_sweep_table_free(&s.table);
     return status;
 }

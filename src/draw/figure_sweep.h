@@ -1,12 +1,27 @@
-/* figure_sweep.h - figures of sweeps: curves over one axis, maps over two. */
+/* figure_sweep.h - figures of sweeps: curves over one axis, families of curves and maps over two. */
 #ifndef FST_DRAW_FIGURE_SWEEP_H
 #define FST_DRAW_FIGURE_SWEEP_H
 
 #include "draw/figure_sweep_axes.h"
 
-fst_status fst_figure_sweep_curves(const fst_sweep_table *table, const fst_sweep_quantity *quantities,
-                                   int count, const fst_sweep_axis *axis, const char *out, fst_error *error);
+/* The part of a sweep that a figure shows: its varied axes, where all others have one value. */
+typedef struct fst_sweep_slice {
+    int varied;
+    fst_sweep_axis axes[FST_AXIS_LIMIT];
+    int64_t start;   /* its first point; the axes' strides lead to the others */
+    char words[192]; /* the values of others that have several, "friction.mu 0.2"; "": there are none */
+} fst_sweep_slice;
+
+/* A chart of keys over the one axis of a slice, which fst_chart_free() frees.  Plain: without the colours of regimes, to be
+ * laid over others. */
+fst_status fst_sweep_curves(const fst_sweep_table *table, const fst_sweep_quantity *quantities, int count,
+                            const fst_sweep_slice *slice, int plain, fst_chart **chart, fst_error *error);
+
 fst_status fst_figure_sweep_map(const fst_sweep_table *table, const fst_sweep_quantity *quantity,
-                                const fst_sweep_axis axes[2], const char *out, fst_error *error);
+                                const fst_sweep_slice *slice, const char *out, fst_error *error);
+
+/* The chart of fst_figure_sweep(), which is no map; fst_chart_free() frees it.  Plain: over one axis. */
+fst_status fst_chart_of_sweep(const char *path, const fst_sweep_figure *options, int plain, fst_chart **chart,
+                              fst_error *error);
 
 #endif

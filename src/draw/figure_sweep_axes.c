@@ -144,11 +144,12 @@ void fst_sweep_about(const fst_sweep_table *table, char *about, size_t size)
     if (!whole)
         (void)snprintf(about + strlen(about), size - strlen(about), " of %lld", (long long)points);
     if (fst_grid_row_kind(grid) == FST_ROWS_OF_LEVITATION)
-        (void)snprintf(about + strlen(about), size - strlen(about), " points%s", whole ? "" : " (interrupted)");
+        (void)snprintf(about + strlen(about), size - strlen(about), " points%s",
+                       whole ? "" : " (not complete)");
     else
         (void)snprintf(about + strlen(about), size - strlen(about), " runs of %s%g turns of the magnet%s",
                        base->run_until == FST_UNTIL_SETTLED ? "at most " : "", fst_run_periods(base),
-                       whole ? "" : " (interrupted)");
+                       whole ? "" : " (not complete)");
     if (table->refine)
         (void)snprintf(about + strlen(about), size - strlen(about), " at %.3g %% of %lld points",
                        100.0 * (double)table->rows / (double)points, (long long)points);

@@ -3,22 +3,23 @@
 
 #include "base/constants.h"
 #include "base/error.h"
-#include <festoon/festoon_tools.h>
+#include "draw/chart.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_KEYS = 8, MOST_POINTS = 10000 };
+enum { MOST_POINTS = 10000, MANY = 80 };
 
 typedef struct drawing {
-    double *x, *by_regime; /* by_regime[(panel * FST_REGIME_COUNT + regime) * points + i] */
-    fst_chart_curve curves[MOST_KEYS * FST_REGIME_COUNT];
-    fst_chart_panel panels[MOST_KEYS];
-    int curve_count, panel_count;
+    const fst_sweep_table *table;
+    fst_chart *chart;
     size_t points;   /* how many are drawn */
     int64_t *chosen; /* which ones */
-    char title[192], about[256];
-    char tics[MOST_KEYS][256]; /* of panels whose values are names */
+    double *x;
+    fst_chart_curve *curves;
+    fst_chart_panel *panels;
+    int curve_count, panel_count;
+    char about[320];
 } drawing;
 
 static int any_value(const double *values, size_t count)
@@ -37,88 +38,94 @@ static void mention_empty(drawing *d, const char *label)
                    strstr(d->about, "no value of: ") ? ", " : "; no value of: ", label);
 }
 
-/* Add a curve to a panel for each regime that occurs, at the heights `values`, so that the points show their
- * regimes. */
-static void add_regimes(drawing *d, int panel, const double *regime, const double *values)
+/* The values of key k at the points that are drawn, times `factor`; NULL: no memory. */
+static double *values_of(const drawing *d, int k, double factor)
+{
+    const double *all = d->table->values + (size_t)k * (size_t)fst_grid_points(d->table->grid);
+    double *values = fst_chart_keep(d->chart, (d->points + 1) * sizeof *values);
+    for (size_t i = 0; values && i < d->points; ++i)
+        values[i] = factor * all[d->chosen[i]];
+    return values;
+}
+
+static void add_curve(drawing *d, const double *y, const char *title, fst_colour colour, fst_curve_style style)
+{
+    d->curves[d->curve_count++] = (fst_chart_curve){
+        .title = title, .x = d->x, .y = y, .count = d->points, .colour = colour, .style = style};
+}
+
+/* Add a curve for each regime that occurs, at the heights `values`, so that the points show their regimes.  0: no
+ * memory. */
+static int add_regimes(drawing *d, const double *regime, const double *values)
 {
     for (int r = 0; r < FST_REGIME_COUNT; ++r) {
-        double *y = d->by_regime + (size_t)(panel * FST_REGIME_COUNT + r) * d->points;
-        int occurs = 0;
-        for (size_t i = 0; i < d->points; ++i) {
+        double *y = fst_chart_keep(d->chart, (d->points + 1) * sizeof *y);
+        if (!y)
+            return 0;
+        for (size_t i = 0; i < d->points; ++i)
             y[i] = regime[i] == r ? values[i] : NAN;
-            occurs = occurs || isfinite(y[i]);
-        }
-        if (occurs)
-            d->curves[d->curve_count++] = (fst_chart_curve){.title = fst_regime_name((fst_regime)r),
-                                                            .x = d->x,
-                                                            .y = y,
-                                                            .count = d->points,
-                                                            .colour = fst_regime_colour(r),
-                                                            .style = FST_CURVE_POINTS};
+        if (any_value(y, d->points))
+            add_curve(d, y, fst_regime_name((fst_regime)r), fst_regime_colour(r), FST_CURVE_POINTS);
     }
+    return 1;
+}
+
+/* A panel for one key, whose points have the colours of their regimes where these are given.  0: no memory. */
+static int add_panel(drawing *d, const fst_sweep_quantity *quantity, const double *values, const double *regime,
+                     fst_curve_style style)
+{
+    char tics[256];
+    fst_chart_panel *panel = &d->panels[d->panel_count++];
+    const int names = fst_sweep_result_tics(quantity->key, tics, sizeof tics), first = d->curve_count;
+    *panel = (fst_chart_panel){.left_label = fst_chart_text(d->chart, quantity->label),
+                               .low = names ? -0.5 : NAN,
+                               .high = names ? names - 0.5 : NAN,
+                               .tics = names ? fst_chart_text(d->chart, tics) : NULL,
+                               .curves = &d->curves[first]};
+    if (!panel->left_label || (names && !panel->tics) || (regime && !add_regimes(d, regime, values)))
+        return 0;
+    if (!regime)
+        add_curve(d, values, NULL, FST_COLOUR_BLUE, names ? FST_CURVE_POINTS : style);
+    panel->curve_count = d->curve_count - first;
+    return 1;
 }
 
 /* One panel for each key.  The regime, where it is asked for beside other keys, has no panel: it colours the
- * points of all panels.  (A colour that means a regime in one panel must not mean anything else in the next.)
- */
-static void add_panels(drawing *d, const fst_sweep_table *table, const fst_sweep_quantity *quantities,
-                       int count)
+ * points of all panels, unless they are plain.  (A colour that means a regime in one panel must not mean anything else in
+ * the next.)  0: no memory. */
+static int add_panels(drawing *d, const fst_sweep_quantity *quantities, int count, int plain)
 {
-    const size_t all = (size_t)fst_grid_points(table->grid);
+    const fst_curve_style style = plain && d->points <= MANY ? FST_CURVE_LINE_POINTS : FST_CURVE_POINTS;
     const double *regime = NULL;
-    for (int k = 1; k < count; ++k)
-        if (strcmp(quantities[k].key, "regime") == 0)
-            regime = table->values + (size_t)k * all;
-    for (int k = 0; k < count; ++k)
-        for (size_t i = 0; i < d->points; ++i)
-            table->values[(size_t)k * all + i] = table->values[(size_t)k * all + (size_t)d->chosen[i]];
+    for (int k = 1; k < count && !plain; ++k)
+        if (strcmp(quantities[k].key, "regime") == 0 && !(regime = values_of(d, k, 1.0)))
+            return 0;
     for (int k = 0; k < count; ++k) {
-        double *values = table->values + (size_t)k * all;
         if (strcmp(quantities[k].key, "regime") == 0 && k > 0)
             continue;
-        for (size_t i = 0; i < d->points; ++i)
-            values[i] *= quantities[k].factor;
-        if (!any_value(values, d->points)) {
+        const double *values = values_of(d, k, quantities[k].factor);
+        if (!values)
+            return 0;
+        if (!any_value(values, d->points))
             mention_empty(d, quantities[k].label);
-            continue;
-        }
-        fst_chart_panel *panel = &d->panels[d->panel_count++];
-        *panel = (fst_chart_panel){
-            .left_label = quantities[k].label, .low = NAN, .high = NAN, .curves = &d->curves[d->curve_count]};
-        const int names =
-            fst_sweep_result_tics(quantities[k].key, d->tics[d->panel_count - 1], sizeof d->tics[0]);
-        if (names) {
-            panel->tics = d->tics[d->panel_count - 1];
-            panel->low = -0.5;
-            panel->high = names - 0.5;
-        }
-        const int first = d->curve_count;
-        if (regime)
-            add_regimes(d, d->panel_count - 1, regime, values);
-        else
-            d->curves[d->curve_count++] = (fst_chart_curve){.x = d->x,
-                                                            .y = values,
-                                                            .count = d->points,
-                                                            .colour = FST_COLOUR_BLUE,
-                                                            .style = FST_CURVE_POINTS};
-        panel->curve_count = d->curve_count - first;
+        else if (!add_panel(d, &quantities[k], values, regime, style))
+            return 0;
     }
+    return 1;
 }
 
 /* Set the abscissa and its range: from the least value to the greatest, or half a unit beyond for a choice. */
-static void lay_abscissa(drawing *d, const fst_grid *grid, const fst_sweep_axis *axis, double *low,
-                         double *high)
+static void lay_abscissa(drawing *d, const fst_sweep_axis *axis)
 {
-    *low = INFINITY;
-    *high = -INFINITY;
+    double low = INFINITY, high = -INFINITY;
     for (size_t i = 0; i < d->points; ++i) {
-        d->x[i] = fst_sweep_axis_value(grid, axis, d->chosen[i]);
-        *low = fmin(*low, d->x[i]);
-        *high = fmax(*high, d->x[i]);
+        d->x[i] = fst_sweep_axis_value(d->table->grid, axis, d->chosen[i]);
+        low = fmin(low, d->x[i]);
+        high = fmax(high, d->x[i]);
     }
-    const double wider = axis->choice ? 0.5 : *low < *high ? 0.0 : 0.1 * fabs(*low);
-    *low -= wider;
-    *high += wider;
+    const double wider = axis->choice ? 0.5 : low < high ? 0.0 : 0.1 * fabs(low);
+    d->chart->x_low = low - wider;
+    d->chart->x_high = high + wider;
 }
 
 /* The scaled angular velocity of a drive of 1 Hz; 0 for other axes. */
@@ -132,69 +139,80 @@ static double scale_of_drive(const fst_grid *grid, const fst_sweep_axis *axis)
     return in_hertz ? factor : 0.0;
 }
 
-/* Every `step`-th point; of a refined sweep, of those that were computed. */
-static void choose_points(const fst_sweep_table *table, size_t step, int64_t *chosen)
+/* Choose the points of a slice that are drawn, not more than MOST_POINTS; of a refined sweep, of those that were computed.
+ * Returns one of how many is drawn; 0: no memory. */
+static size_t choose_points(drawing *d, const fst_sweep_slice *slice)
 {
-    const int64_t points = fst_grid_points(table->grid);
-    size_t seen = 0, count = 0;
-    for (int64_t i = 0; i < points; ++i)
-        if (!table->refine || table->computed[i]) {
-            if (seen % step == 0)
-                chosen[count++] = i;
-            ++seen;
-        }
+    const fst_grid *grid = d->table->grid;
+    const int64_t stride = fst_grid_axis_stride(grid, slice->axes[0].index), count = slice->axes[0].count;
+    size_t seen = 0;
+    d->chosen = fst_chart_keep(d->chart, (size_t)(count + 1) * sizeof *d->chosen);
+    if (!d->chosen)
+        return 0;
+    for (int64_t i = 0; i < count; ++i) {
+        const int64_t point = slice->start + i * stride;
+        if (!d->table->refine || d->table->computed[point])
+            d->chosen[seen++] = point;
+    }
+    const size_t step = seen > MOST_POINTS ? (seen + MOST_POINTS - 1) / MOST_POINTS : 1;
+    for (size_t i = 0; i < seen; i += step)
+        d->chosen[d->points++] = d->chosen[i];
+    return step;
 }
 
-fst_status fst_figure_sweep_curves(const fst_sweep_table *table, const fst_sweep_quantity *quantities,
-                                   int count, const fst_sweep_axis *axis, const char *out, fst_error *error)
+/* Title, the line below it and the abscissas.  0: no memory. */
+static int dress(drawing *d, const fst_sweep_axis *axis)
 {
-    drawing *d = calloc(1, sizeof *d);
-    const size_t all = (size_t)(table->refine ? table->rows : fst_grid_points(table->grid));
-    const size_t step = all > 0 ? (all + MOST_POINTS - 1) / MOST_POINTS : 1,
-                 points = all / step + (all % step > 0);
-    double *memory = malloc((1 + MOST_KEYS * FST_REGIME_COUNT) * (points + 1) * sizeof *memory);
-    int64_t *chosen = malloc((points + 1) * sizeof *chosen);
-    if (!d || !memory || !chosen) {
-        free(d);
-        free(chosen);
-        free(memory);
-        return fst_fail(error, FST_NO_MEMORY, out, "no memory for %zu points", points);
-    }
-    d->points = points;
-    d->chosen = chosen;
-    choose_points(table, step, chosen);
-    d->x = memory;
-    d->by_regime = memory + points;
-    double low, high;
-    lay_abscissa(d, table->grid, axis, &low, &high);
-    char words[128];
+    char words[128], title[192], tics[512];
+    const double scale = scale_of_drive(d->table->grid, axis);
     fst_sweep_words(axis->label, words);
-    (void)snprintf(d->title, sizeof d->title, "Sweep over the %s", words);
-    fst_sweep_about(table, d->about, sizeof d->about);
-    if (step > 1)
-        (void)snprintf(d->about + strlen(d->about), sizeof d->about - strlen(d->about),
-                       "; drawn: one point of %zu", step);
-    add_panels(d, table, quantities, count);
-    char tics[512] = "";
+    (void)snprintf(title, sizeof title, "Sweep over the %s", words);
     if (axis->choice)
         fst_sweep_choice_tics(axis, tics, sizeof tics);
-    const double scale = scale_of_drive(table->grid, axis);
-    const fst_chart chart = {.title = d->title,
-                             .about = d->about,
-                             .x_label = axis->label,
-                             .x_low = low,
-                             .x_high = high,
-                             .x_logarithmic = axis->logarithmic,
-                             .x_tics = axis->choice ? tics : NULL,
-                             .x2_label = scale > 0 ? "drive ω (γ)" : NULL,
-                             .x2_factor = scale,
-                             .panels = d->panels,
-                             .panel_count = d->panel_count};
-    const fst_status status = d->panel_count > 0 ? fst_figure_chart(out, &chart, error)
-                                                 : fst_fail(error, FST_BAD_INPUT, out,
-                                                            "no point of the sweep has a value to draw yet");
-    free(chosen);
-    free(memory);
-    free(d);
-    return status;
+    fst_chart *chart = d->chart;
+    chart->title = fst_chart_text(chart, title);
+    chart->about = fst_chart_text(chart, d->about);
+    chart->x_label = fst_chart_text(chart, axis->label);
+    chart->x_tics = axis->choice ? fst_chart_text(chart, tics) : NULL;
+    chart->x_logarithmic = axis->logarithmic;
+    chart->x2_label = scale > 0 ? "drive ω (γ)" : NULL;
+    chart->x2_factor = scale;
+    chart->panels = d->panels;
+    chart->panel_count = d->panel_count;
+    return chart->title && chart->about && chart->x_label && (!axis->choice || chart->x_tics);
+}
+
+/* FST_NO_MEMORY needs no sentence yet. */
+static fst_status fill(drawing *d, const fst_sweep_quantity *quantities, int count,
+                       const fst_sweep_slice *slice, int plain)
+{
+    const size_t step = choose_points(d, slice);
+    d->x = fst_chart_keep(d->chart, (d->points + 1) * sizeof *d->x);
+    d->curves = fst_chart_keep(d->chart, (size_t)(count * FST_REGIME_COUNT) * sizeof *d->curves);
+    d->panels = fst_chart_keep(d->chart, (size_t)count * sizeof *d->panels);
+    if (step == 0 || !d->x || !d->curves || !d->panels)
+        return FST_NO_MEMORY;
+    lay_abscissa(d, &slice->axes[0]);
+    fst_sweep_about(d->table, d->about, sizeof d->about);
+    size_t used = strlen(d->about);
+    if (slice->words[0])
+        used += (size_t)snprintf(d->about + used, sizeof d->about - used, "; at %s", slice->words);
+    if (step > 1 && used < sizeof d->about)
+        (void)snprintf(d->about + used, sizeof d->about - used, "; drawn: one point of %zu", step);
+    return add_panels(d, quantities, count, plain) && dress(d, &slice->axes[0]) ? FST_OK : FST_NO_MEMORY;
+}
+
+fst_status fst_sweep_curves(const fst_sweep_table *table, const fst_sweep_quantity *quantities, int count,
+                            const fst_sweep_slice *slice, int plain, fst_chart **chart, fst_error *error)
+{
+    drawing d = {.table = table, .chart = fst_chart_new()};
+    *chart = d.chart;
+    const fst_status status = d.chart ? fill(&d, quantities, count, slice, plain) : FST_NO_MEMORY;
+    if (status == FST_OK && d.panel_count > 0)
+        return FST_OK;
+    fst_chart_free(d.chart);
+    *chart = NULL;
+    return status == FST_OK ? fst_fail(error, FST_BAD_INPUT, "fst_figure_sweep",
+                                       "no point of the sweep has a value to draw yet")
+                            : fst_fail(error, FST_NO_MEMORY, "fst_figure_sweep", "no memory for a figure");
 }

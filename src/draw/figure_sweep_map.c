@@ -35,11 +35,26 @@ typedef struct side {
 
 typedef struct map {
     const fst_sweep_table *table;
-    const fst_sweep_axis *axes; /* the first one goes upward, the second one to the right */
+    const fst_sweep_slice *slice;
+    const fst_sweep_axis *axes; /* of the slice: the first one goes upward, the second one to the right */
     side up, right;
     const fst_sweep_names *names; /* that colours mean; NULL: the values are numbers */
     double factor;
 } map;
+
+/* The points of the slice, and the value at one of them. */
+static int64_t point_count(const map *m)
+{
+    return m->axes[0].count * m->axes[1].count;
+}
+
+static double value_of(const map *m, int64_t i)
+{
+    const fst_grid *grid = m->table->grid;
+    return m->table
+        ->values[m->slice->start + i / m->axes[1].count * fst_grid_axis_stride(grid, m->axes[0].index) +
+                 i % m->axes[1].count * fst_grid_axis_stride(grid, m->axes[1].index)];
+}
 
 /* ------------------------------------------------------------------ cells */
 
@@ -104,7 +119,7 @@ static fst_status lay_side(side *s, const fst_grid *grid, const fst_sweep_axis *
 
 static double value_at(const map *m, int64_t row, int64_t column)
 {
-    return m->table->values[m->up.places[row].offset + m->right.places[column].offset];
+    return m->table->values[m->slice->start + m->up.places[row].offset + m->right.places[column].offset];
 }
 
 /* ------------------------------------------------------------------ drawing */
@@ -176,10 +191,10 @@ static void write_heat(fst_figure_file *figure, const map *m, const char *label,
                        int height)
 {
     double least = INFINITY, greatest = -INFINITY;
-    for (int64_t i = 0; i < fst_grid_points(m->table->grid); ++i)
-        if (isfinite(m->table->values[i])) {
-            least = fmin(least, m->factor * m->table->values[i]);
-            greatest = fmax(greatest, m->factor * m->table->values[i]);
+    for (int64_t i = 0; i < point_count(m); ++i)
+        if (isfinite(value_of(m, i))) {
+            least = fmin(least, m->factor * value_of(m, i));
+            greatest = fmax(greatest, m->factor * value_of(m, i));
         }
     const double both = fmax(-least, greatest);
     fst_figure_palette(figure, least < 0 && greatest > 0 ? FST_PALETTE_DIVERGING : FST_PALETTE_LINE);
@@ -198,8 +213,8 @@ static void write_heat(fst_figure_file *figure, const map *m, const char *label,
 static int64_t blank_points(const map *m)
 {
     int64_t blank = 0;
-    for (int64_t i = 0; i < fst_grid_points(m->table->grid); ++i)
-        blank += !isfinite(m->table->values[i]);
+    for (int64_t i = 0; i < point_count(m); ++i)
+        blank += !isfinite(value_of(m, i));
     return blank;
 }
 
@@ -207,7 +222,7 @@ static int64_t blank_points(const map *m)
 static fst_legend make_legend(const map *m, const fst_sweep_quantity *quantity, const int occurs[MOST_NAMES])
 {
     fst_legend legend = {.count = 0};
-    const int64_t points = fst_grid_points(m->table->grid), blank = blank_points(m);
+    const int64_t points = point_count(m), blank = blank_points(m);
     char words[3][128];
     fst_sweep_words(strcmp(quantity->key, "regime") == 0    ? "Regimes of motion"
                     : strcmp(quantity->key, "outcome") == 0 ? "Outcomes of several beads"
@@ -221,6 +236,9 @@ static fst_legend make_legend(const map *m, const fst_sweep_quantity *quantity, 
         legend.title[0] = (char)(legend.title[0] - 'a' + 'A');
     fst_sweep_about(m->table, legend.about, sizeof legend.about);
     size_t used = strlen(legend.about);
+    if (m->slice->words[0])
+        (void)snprintf(legend.about + used, sizeof legend.about - used, "; at %s", m->slice->words);
+    used = strlen(legend.about);
     if (m->up.step * m->right.step > 1)
         (void)snprintf(legend.about + used, sizeof legend.about - used, "; drawn: one point of %lld x %lld",
                        (long long)m->up.step, (long long)m->right.step);
@@ -249,7 +267,7 @@ static fst_status draw(map *m, const fst_sweep_quantity *quantity, const char *o
 {
     const fst_grid *grid = m->table->grid;
     fst_figure_file figure;
-    if (blank_points(m) == fst_grid_points(grid))
+    if (blank_points(m) == point_count(m))
         return fst_fail(error, FST_BAD_INPUT, out, "no point of the sweep has a value to draw yet");
     fst_status status = lay_side(&m->up, grid, &m->axes[0], error);
     if (status == FST_OK)
@@ -257,9 +275,9 @@ static fst_status draw(map *m, const fst_sweep_quantity *quantity, const char *o
     if (status != FST_OK)
         return status;
     int occurs[MOST_NAMES] = {0};
-    for (int64_t i = 0; m->names && i < fst_grid_points(grid); ++i)
-        if (isfinite(m->table->values[i]))
-            occurs[(int)m->table->values[i]] = 1;
+    for (int64_t i = 0; m->names && i < point_count(m); ++i)
+        if (isfinite(value_of(m, i)))
+            occurs[(int)value_of(m, i)] = 1;
     const fst_legend legend = make_legend(m, quantity, occurs);
     const int left = m->axes[0].choice ? NAMES : LEFT, top = fst_legend_head(&legend) + 8;
     const int scale = top + FRAME + AXIS;
@@ -285,11 +303,15 @@ static fst_status draw(map *m, const fst_sweep_quantity *quantity, const char *o
 }
 
 fst_status fst_figure_sweep_map(const fst_sweep_table *table, const fst_sweep_quantity *quantity,
-                                const fst_sweep_axis axes[2], const char *out, fst_error *error)
+                                const fst_sweep_slice *slice, const char *out, fst_error *error)
 {
-    map m = {
-        .table = table, .axes = axes, .names = fst_sweep_names_of(quantity->key), .factor = quantity->factor};
-    if (fst_grid_axis_stride(table->grid, axes[0].index) == fst_grid_axis_stride(table->grid, axes[1].index))
+    map m = {.table = table,
+             .slice = slice,
+             .axes = slice->axes,
+             .names = fst_sweep_names_of(quantity->key),
+             .factor = quantity->factor};
+    if (fst_grid_axis_stride(table->grid, m.axes[0].index) ==
+        fst_grid_axis_stride(table->grid, m.axes[1].index))
         return fst_fail(error, FST_BAD_INPUT, out, "random points make no map: use fst_sweep_export()");
     const fst_status status = draw(&m, quantity, out, error);
     free(m.up.places);

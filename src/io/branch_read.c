@@ -143,6 +143,32 @@ static double scale_of(const json_t *document, const char *key)
     return value > 0.0 && isfinite(value) ? value : NAN;
 }
 
+/* Set all that an object says: "magnet": {"parts": [{"kind": "block"}]} is magnet.parts[0].kind.  What these parameters
+ * do not have, of another version, says nothing here. */
+static void read_scene(const json_t *value, const char *key, fst_params *scene)
+{
+    char inner[128], text[64];
+    const char *name;
+    const json_t *each;
+    size_t i;
+    json_object_foreach((json_t *)value, name, each)
+    {
+        (void)snprintf(inner, sizeof inner, "%.60s%s%.60s", key, key[0] ? "." : "", name);
+        read_scene(each, inner, scene);
+    }
+    json_array_foreach(value, i, each)
+    {
+        (void)snprintf(inner, sizeof inner, "%.100s[%zu]", key, i);
+        read_scene(each, inner, scene);
+    }
+    if (json_is_number(value)) {
+        (void)snprintf(text, sizeof text, "%.17g", json_number_value(value));
+        (void)fst_params_set(scene, key, text, NULL);
+    } else if (json_is_string(value)) {
+        (void)fst_params_set(scene, key, json_string_value(value), NULL);
+    }
+}
+
 /* A text that goes into messages, without control characters. */
 static void read_text(reader *r, const json_t *object, const char *key, char *out, size_t size)
 {
@@ -333,6 +359,10 @@ static void read_head(reader *r, const json_t *document, fst_branch *branch)
     read_finite(r, document, "from", &branch->from);
     branch->half_length = scale_of(document, "magnet.half_length");
     branch->gamma = scale_of(document, "friction.gamma");
+    if (json_is_object(json_object_get(document, "scene")) && (branch->scene = malloc(sizeof *branch->scene))) {
+        *branch->scene = fst_default_params();
+        read_scene(json_object_get(document, "scene"), "", branch->scene);
+    }
     read_finite(r, document, "to", &branch->to);
     if (json_object_get(document, "second_parameter")) {
         read_parameter(r, document, "second_parameter", branch->second_key);

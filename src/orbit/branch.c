@@ -65,6 +65,7 @@ void fst_branch_free(fst_branch *branch)
     free(branch->points);
     free(branch->specials);
     free(branch->ends);
+    free(branch->scene);
     memset(branch, 0, sizeof *branch);
 }
 

@@ -53,6 +53,38 @@ static void each_key_is_named(void **state)
     assert_true(named > 40);
 }
 
+/* Of three scenes, the third like the first: each key differs once, and then is not what all have in common. */
+static void each_difference_is_named(void **state)
+{
+    (void)state;
+    int named = 0;
+    for (int i = 0; i < fst_param_count(); ++i) {
+        const fst_param_info *row = fst_param_at(i);
+        char value[64], wanted[192], names[3][FST_CAPTION_SIZE], same[192];
+        const fst_params usual = fst_default_params();
+        fst_params params = usual;
+        const fst_params *const different[3] = {&usual, &params, &usual}, *const equal[2] = {&params, &params};
+        if (!another(row, value) || fst_params_set(&params, row->key, value, NULL) != FST_OK ||
+            strncmp(row->key, "run.", 4) == 0 || strcmp(row->key, "world.frame") == 0)
+            continue;
+        wanted[0] = '\0';
+        fst_caption(&params, NULL, 0, wanted, sizeof wanted);
+        fst_caption_differences(different, 3, NULL, 0, names, same, sizeof same);
+        assert_string_equal(names[1], wanted);
+        assert_string_equal(names[0], names[2]);
+        assert_string_not_equal(names[0], names[1]);
+        assert_non_null(strstr(names[1], row->key));
+        assert_string_equal(same, "");
+        fst_caption_differences(equal, 2, NULL, 0, names, same, sizeof same);
+        assert_string_equal(names[0], "");
+        assert_string_equal(same, wanted);
+        fst_caption_differences(different, 3, (const char *[]){row->key}, 1, names, same, sizeof same);
+        assert_null(strstr(names[1], row->key));
+        ++named;
+    }
+    assert_true(named > 40);
+}
+
 static void values_have_their_units(void **state)
 {
     (void)state;
@@ -89,8 +121,8 @@ static void what_has_no_room_is_counted(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(each_key_is_named),
-                                       cmocka_unit_test(values_have_their_units),
-                                       cmocka_unit_test(what_has_no_room_is_counted)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_key_is_named), cmocka_unit_test(each_difference_is_named),
+        cmocka_unit_test(values_have_their_units), cmocka_unit_test(what_has_no_room_is_counted)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

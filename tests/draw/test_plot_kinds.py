@@ -325,7 +325,7 @@ class Branches(Case):
                 ("t.csv", "--runs does not", ["--runs", "r.json"]),
                 ("t.csv", "--arrows does not belong to this kind", ["--arrows", "--kind", "time"]),
                 ("t.csv", "--zoom does not", ["--zoom", "0,1,0,1", "--kind", "section"]),
-                ("s.db", "--observable does not belong to a sweep; what does: --key", ["--observable", "mean_nz"]),
+                ("s.db", "--observable does not belong to a sweep; what does: --kind, --key", ["--observable", "mean_nz"]),
                 ("s.db", "--key does not belong to a figure with measured points", ["--key", "mean_r", "--points", "p.csv"])):
             self.refused(word, "plot", self.folder / name, *words)
 

@@ -1,7 +1,7 @@
 """Figures of sweeps: positions, units and scales of what is drawn, read from the data beside the figure.
 
 tests: draw/figure_sweep.c draw/figure_sweep_axes.c draw/figure_sweep_curves.c draw/figure_sweep_map.c
-  draw/quantity.c sweep/table.c"""
+  draw/quantity.c draw/figure_over.c draw/charts_over.c draw/caption.c sweep/table.c"""
 
 import csv
 import io
@@ -42,7 +42,7 @@ class Figures(Case):
 
     def cells(self, name, *options):
         """Each cell of a heat map: x, y, x_low, x_high, y_low, y_high, value."""
-        script, blocks = self.plot(name, *options)
+        script, blocks = self.plot(name, "--kind", "map", *options)
         return script, blocks["cells"]
 
 
@@ -121,7 +121,7 @@ class Maps(Figures):
 
     def test_regimes(self):
         rows = self.sweep("a.db", "drive.frequency=1Hz:20Hz:3", "model.kappa=1:2:4")
-        script, blocks = self.plot("a.db")
+        script, blocks = self.plot("a.db", "--key", "regime")
         drawn = {name for name in blocks if name.startswith("cells-")}
         found = {row["regime"] for row in rows}
         self.assertEqual(len(drawn), len(found))
@@ -264,6 +264,130 @@ class Units(Figures):
         self.sweep("m.db", "drive.frequency=19,20", "model.kappa=1.5,1.6")
         self.assertIn("no point", self.refused("plot", self.path("m.db"), "--key", "largest_exponent", "-o",
                                                self.path("f.svg")))
+
+
+class Slices(Figures):
+    AXES = ("drive.frequency=9Hz:12Hz:4", "model.kappa=1,1.5", "bead.radius=2mm,2.5mm,3mm")
+
+    def curves(self, blocks, panel):
+        return [blocks[name] for name in sorted(blocks) if name.startswith(f"panel{panel}-curve")]
+
+    def test_points_of_one_value_of_an_axis(self):
+        """Curves, families and maps of a sweep over three axes are the rows that have the values asked for."""
+        rows = self.sweep("t.db", *self.AXES)
+        self.assertIn("--at KEY=VALUE", self.refused("plot", self.path("t.db"), "-o", self.path("f.svg")))
+        for radius in (2, 2.5, 3):
+            there = [row for row in rows if abs(float(row["bead.radius"]) - radius * 1e-3) < 1e-9]
+            self.assertEqual(len(there), 8)
+            wanted = {(float(row["drive.frequency"]), float(row["model.kappa"])): 23 * float(row["mean_r"]) for row in there}
+            script, cells = self.cells("t.db", "--key", "mean_r", "--at", f"bead.radius={radius}mm")
+            self.assertIn(f"at bead.radius {radius:g} mm", words(script))
+            self.assertEqual(len(cells), 8)
+            for cell in cells:
+                self.assertAlmostEqual(cell[6], wanted[round(cell[1], 6), round(cell[0], 6)], 4)
+            script, blocks = self.plot("t.db", "--key", "mean_r", "--at", f"bead.radius={radius}mm")
+            for kappa, curve in zip((1, 1.5), self.curves(blocks, 1), strict=True):
+                self.assertIn(f"model.kappa {kappa:g}", words(script))
+                for x, y in curve:
+                    self.assertAlmostEqual(y, wanted[round(x, 6), kappa], 4)
+            _, blocks = self.plot("t.db", "--key", "mean_r", "--at", f"bead.radius={radius}mm", "--at", "model.kappa=1.5")
+            self.assertEqual([round(y, 4) for _, y in self.curves(blocks, 1)[0]],
+                             [round(wanted[f, 1.5], 4) for f in (9, 10, 11, 12)])
+
+    def test_many_values_make_a_map_and_few_a_family(self):
+        self.sweep("m.db", "model.kappa=1:2:8", "drive.frequency=9Hz:12Hz:8")
+        self.assertIn("boxxyerror", self.plot("m.db", "--key", "mean_r")[0])
+        self.assertEqual(len(self.curves(self.plot("m.db", "--key", "mean_r", "--kind", "curves")[1], 1)), 8)
+        self.sweep("n.db", "model.kappa=1:2:9", "drive.frequency=9Hz:12Hz:9")
+        self.assertIn("too many", self.refused("plot", self.path("n.db"), "--kind", "curves", "-o", self.path("f.svg")))
+
+    def test_values_that_are_not_there(self):
+        self.sweep("t.db", "model.kappa=1,1.5", "friction.law=viscous,rolling", "drive.frequency=9,10")
+        plot = ("plot", self.path("t.db"), "-o", self.path("no.svg"), "--at")
+        for at, told in (("model.kappa=1.4", "no points at model.kappa = 1.4; the nearest value is 1.5"),
+                         ("friction.law=coulomb", "no points at friction.law = coulomb"), ("friction.law=dry", "friction.law"),
+                         ("model.kapa=1", "the nearest is model.kappa"), ("start.r=0.95", "does not vary"),
+                         ("model.kappa", "not KEY=VALUE"), ("model.kappa=x", "model.kappa")):
+            self.assertIn(told, self.refused(*plot, at), at)
+        self.assertFalse(os.path.exists(self.path("no.svg")))
+        script, _ = self.plot("t.db", "--at", "friction.law=rolling")
+        self.assertIn("at friction.law rolling", words(script))
+
+
+class Over(Figures):
+    """Files over each other: each has its own rows in its own colour, and a name that says what differs."""
+
+    def over(self, *names_and_options):
+        self.good("plot", *[self.path(word) if word.endswith((".db", ".json", ".csv")) else word for word in names_and_options],
+                  "-o", self.path("figure.svg"))
+        blocks = {}
+        for text in content_of(self.path("figure.dat"), "r").split("\n\n\n"):
+            name, _, *lines = text.strip("\n").split("\n")
+            blocks[name[2:]] = [[float(word) for word in line.split()] for line in lines if line]
+        script = content_of(self.path("figure.gp"), "r")
+        colours = dict(re.findall(r"'(panel\d-curve\d)'.* lc rgb '(#\w+)' notitle", script))
+        return script, blocks, colours
+
+    def test_two_sweeps_and_a_branch(self):
+        axis = "drive.frequency=9Hz:15Hz:4"
+        rows = self.sweep("plain.db", axis)
+        self.good("sweep", *SHORT, "--set", "model.kappa=1.2", "--set", "bead.radius=2mm", "--over", axis, "-o", self.path("other.db"))
+        script, blocks, colours = self.over("plain.db", "other.db", "--key", "mean_r,std_r")
+        self.assertIn("bead.radius 2.5 mm, model.kappa 1.5", words(script))
+        self.assertIn("bead.radius 2 mm, model.kappa 1.2", words(script))
+        self.assertEqual(colours["panel1-curve1"], colours["panel2-curve1"])
+        self.assertNotEqual(colours["panel1-curve1"], colours["panel1-curve2"])
+        others = list(csv.DictReader(io.StringIO(self.rows("other.db"))))
+        for curve, source in (("curve1", rows), ("curve2", others)):
+            for panel, key in (("panel1", "mean_r"), ("panel2", "std_r")):
+                for (x, y), row in zip(blocks[f"{panel}-{curve}"], source, strict=True):
+                    self.assertAlmostEqual(x, float(row["drive.frequency"]), 6)
+                    self.assertAlmostEqual(y, 23 * float(row[key]), 4)
+        self.good("branch", "--kind", "counter", "--over", "drive.frequency=14Hz:15Hz", "-o", self.path("orbits.json"))
+        self.assertNotIn("model.kappa", words(self.plot("orbits.json")[0]))
+        script, blocks, _ = self.over("plain.db", "orbits.json")
+        self.assertIn("plain.db", words(script))  # nothing but the axis differs
+        self.assertIn("orbits.json", words(script))
+        self.assertTrue(any(14 <= x <= 15 and 19 < y < 22 for x, y in blocks["panel1-curve2"]), blocks)
+
+    def test_what_is_the_same_stands_below_the_title(self):
+        self.good("branch", "--kind", "locked", "--over", "drive.omega=0.05:0.1", "--set", "model.kappa=1.25", "-o",
+                  self.path("locked.json"))
+        self.assertIn("model.kappa 1.25", words(self.plot("locked.json")[0]))
+        for name, law in (("a.db", "viscous"), ("b.db", "rolling")):
+            self.good("sweep", *SHORT, "--set", "model.kappa=1.25", "--set", f"friction.law={law}", "--over",
+                      "drive.frequency=9,10", "-o", self.path(name))
+        script, _, _ = self.over("a.db", "b.db")
+        line = re.findall(r"set label '(.*?)' at [^\n]*textcolor rgb '#555555'", script)
+        self.assertEqual(line, ["model.kappa 1.25"])
+        self.assertEqual(re.findall(r"set label '(friction.*?)' at", script), ["friction.law viscous", "friction.law rolling"])
+
+    def test_trajectories(self):
+        for name, kappa in (("a.csv", "1.2"), ("b.csv", "1.8")):
+            self.good("run", *SHORT, "--set", f"model.kappa={kappa}", "-o", self.path(name))
+        for kind in ("path", "time", "section"):
+            script, blocks, colours = self.over("a.csv", "b.csv", "--kind", kind)
+            self.assertIn("model.kappa 1.2", words(script), kind)
+            self.assertIn("model.kappa 1.8", words(script), kind)
+            self.assertGreater(len(set(colours.values())), 1)
+            self.assertNotEqual(blocks["panel1-curve1"], blocks[max(name for name in blocks if name.startswith("panel1"))])
+        self.assertEqual(self.over("a.csv", "b.csv", "--kind", "time")[1]["panel1-curve1"][0][0], 0)
+
+    def test_what_has_nothing_in_common_is_refused(self):
+        self.sweep("f.db", "drive.frequency=9,10")
+        self.sweep("k.db", "model.kappa=1,1.5")
+        self.sweep("two.db", "model.kappa=1,1.5", "drive.frequency=9,10")
+        self.good("run", *SHORT, "-o", self.path("t.csv"))
+        out = ("-o", self.path("no.svg"))
+        for names in (("f.db", "k.db"), ("f.db", "t.csv"), ("t.csv", "f.db")):
+            self.assertIn("no axis in common", self.refused("plot", *map(self.path, names), *out), names)
+        self.assertIn("--at KEY=VALUE", self.refused("plot", self.path("f.db"), self.path("two.db"), *out))
+        self.assertIn("path, time, section and ramp",
+                      self.refused("plot", self.path("t.csv"), self.path("t.csv"), "--kind", "local-n", *out))
+        self.refused("plot", *[self.path("f.db")] * 9, *out)
+        self.assertFalse(os.path.exists(self.path("no.svg")))
+        self.assertIn("no sweep of these varies", self.refused("plot", *[self.path("f.db")] * 2, "--at", "start.r=1", *out))
+        self.over("f.db", "two.db", "--at", "model.kappa=1.5")
 
 
 class ManyPoints(Figures):

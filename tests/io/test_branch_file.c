@@ -18,7 +18,7 @@ _Static_assert(sizeof(fst_branch_point) ==
 _Static_assert(sizeof(fst_special) == 2 * sizeof(double) + 6 * sizeof(int) + sizeof(fst_branch_point),
                "a new member");
 _Static_assert(sizeof(fst_branch_end) == 4 * sizeof(int) + sizeof(double) + 192, "a new member");
-_Static_assert(sizeof(fst_branch) == 2 * 64 + 6 * sizeof(double) + 6 * sizeof(int) + 6 * sizeof(void *),
+_Static_assert(sizeof(fst_branch) == 2 * 64 + 6 * sizeof(double) + 6 * sizeof(int) + 7 * sizeof(void *),
                "a new member");
 
 /* All numbers differ from each other and none is zero, so that no member can stand for another. */
@@ -148,6 +148,7 @@ static void check_same(const fst_branch *a, const fst_branch *b)
         head[i].points = NULL;
         head[i].specials = NULL;
         head[i].ends = NULL;
+        head[i].scene = NULL; /* only of a branch that was read */
     }
     assert_memory_equal(&head[0], &head[1], sizeof head[0]);
     if (a->point_count > 0)
@@ -158,9 +159,28 @@ static void check_same(const fst_branch *a, const fst_branch *b)
         assert_memory_equal(a->ends, b->ends, a->end_count * sizeof *a->ends);
 }
 
+/* Each key of the scene, as a person would set it. */
+static void check_same_scene(const fst_params *a, const fst_params *b)
+{
+    char values[2][256];
+    assert_non_null(b);
+    for (int i = 0; i < fst_params_row_count(a); ++i) {
+        (void)fst_params_get(a, i, values[0], sizeof values[0]);
+        (void)fst_params_get(b, i, values[1], sizeof values[1]);
+        assert_string_equal(values[0], values[1]);
+    }
+}
+
 static void check_round_trip(fst_branch *b)
 {
-    const fst_params params = fst_default_params();
+    static const char *const given[][2] = {{"friction.law", "coulomb"},
+                                           {"drive.omega", "0.3"},
+                                           {"bead.radius", "2 mm"},
+                                           {"magnet.width", "30 mm"},
+                                           {"model.dynamics", "farago2020"}};
+    fst_params params = fst_default_params();
+    for (size_t i = 0; i < sizeof given / sizeof *given; ++i)
+        assert_int_equal(fst_params_set(&params, given[i][0], given[i][1], NULL), FST_OK);
     fst_branch read;
     fst_error error;
     put_crossings_last(b);
@@ -168,6 +188,7 @@ static void check_round_trip(fst_branch *b)
     if (fst_branch_read(PATH, &read, &error) != FST_OK)
         fail_msg("%s: %s", error.where, error.sentence);
     check_same(b, &read);
+    check_same_scene(&params, read.scene);
     char *first = fst_branch_json(&params, b), *second = fst_branch_json(&params, &read);
     assert_string_equal(first, second);
     free(first);
@@ -193,6 +214,30 @@ static fst_status refuse(void *user, double fraction, const char *what, fst_erro
         return FST_OK;
     error->code = FST_INTERRUPTED;
     return FST_INTERRUPTED;
+}
+
+/* Parts of a magnet stand in a list of objects. */
+static void parts_of_the_scene_come_back(void **state)
+{
+    (void)state;
+    static const char *const given[][2] = {{"magnet.shape", "parts"},
+                                           {"magnet.parts[0].kind", "cylinder"},
+                                           {"magnet.parts[0].size[0]", "10 mm"},
+                                           {"magnet.parts[1].kind", "cuboid"},
+                                           {"magnet.parts[1].remanence[0]", "1.1 T"}};
+    fst_params params = fst_default_params();
+    fst_branch b = made_up(FST_BRANCH_LOCKED), read;
+    fst_error error;
+    for (size_t i = 0; i < sizeof given / sizeof *given; ++i)
+        if (fst_params_set(&params, given[i][0], given[i][1], &error) != FST_OK)
+            fail_msg("%s: %s", error.where, error.sentence);
+    put_crossings_last(&b);
+    assert_int_equal(params.magnet_part_count, 2);
+    assert_int_equal(fst_branch_write(PATH, &params, &b, &error), FST_OK);
+    assert_int_equal(fst_branch_read(PATH, &read, &error), FST_OK);
+    check_same_scene(&params, read.scene);
+    fst_branch_free(&read);
+    fst_branch_free(&b);
 }
 
 /* Branches that the program makes: a finished one, one stopped on the way, one over two parameters. */
@@ -381,9 +426,9 @@ static void integers_end_at_their_borders(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_member_comes_back),   cmocka_unit_test(real_branches_come_back),
-        cmocka_unit_test(other_members_are_refused), cmocka_unit_test(integers_end_at_their_borders),
-        cmocka_unit_test(eigenvalues_are_nine),
+        cmocka_unit_test(every_member_comes_back),       cmocka_unit_test(parts_of_the_scene_come_back),
+        cmocka_unit_test(real_branches_come_back),       cmocka_unit_test(other_members_are_refused),
+        cmocka_unit_test(integers_end_at_their_borders), cmocka_unit_test(eigenvalues_are_nine),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -84,7 +84,7 @@ class ExportKeys(Case):
         self.assertEqual([float(rows[i][1]) for i in (1, 2, 5)], [known[i]["mean_r"] for i in (1, 2, 5)])
         self.good("plot", path, "-o", self.path("f.svg"))
         title = " ".join(re.findall("set label '(.*?)' at ", content_of(self.path("f.gp"), "r")))
-        self.assertIn("3 of 8 runs of 8 turns of the magnet (interrupted)", title)
+        self.assertIn("3 of 8 runs of 8 turns of the magnet (not complete)", title)
 
     def test_failed_runs(self):
         """Their status is why they failed, and the run is known to be there."""

@@ -1,0 +1,147 @@
+/* charts_over.c - fst_charts_over(): several charts as one, a colour for each. */
+#include "draw/charts_over.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/error.h"
+
+static const fst_colour COLOURS[FST_CHARTS_OVER] = {FST_COLOUR_BLUE,   FST_COLOUR_VERMILION, FST_COLOUR_GREEN,
+                                                    FST_COLOUR_PURPLE, FST_COLOUR_SKY,       FST_COLOUR_ORANGE,
+                                                    FST_COLOUR_BLACK,  FST_COLOUR_OLIVE};
+
+static int same_text(const char *one, const char *other)
+{
+    return one == other || (one && other && strcmp(one, other) == 0);
+}
+
+/* The abscissa of all charts: from the least end to the greatest. */
+static fst_status lay_abscissa(fst_chart *all, const fst_chart *first, const fst_chart *one, fst_error *error)
+{
+    if (!same_text(first->x_label, one->x_label) || !same_text(first->x_tics, one->x_tics) ||
+        first->square != one->square)
+        return fst_fail(error, FST_BAD_INPUT, "fst_figure_over",
+                        "one of these is over the %s and another over the %s: they have no axis in common",
+                        first->x_label, one->x_label);
+    all->x_low = fmin(all->x_low, one->x_low);
+    all->x_high = fmax(all->x_high, one->x_high);
+    all->x_logarithmic &= one->x_logarithmic;
+    if (!same_text(first->x2_label, one->x2_label) || first->x2_factor != one->x2_factor)
+        all->x2_label = NULL;
+    return FST_OK;
+}
+
+/* The panel with the ordinate of this one; a new one where there is none yet. */
+static fst_chart_panel *panel_for(fst_chart_panel *panels, int *count, const fst_chart_panel *one)
+{
+    for (int p = 0; p < *count; ++p)
+        if (same_text(panels[p].left_label, one->left_label)) {
+            panels[p].low = fmin(panels[p].low, one->low); /* NAN, from the data, stays where both are */
+            panels[p].high = fmax(panels[p].high, one->high);
+            return &panels[p];
+        }
+    panels[*count] = *one;
+    panels[*count].curve_count = 0;
+    panels[*count].inset = NULL;
+    return &panels[(*count)++];
+}
+
+/* Whether a curve with this title is in the key already. */
+static int is_named(const fst_chart_panel *panels, int count, const char *title)
+{
+    for (int p = 0; p < count; ++p)
+        for (int c = 0; c < panels[p].curve_count; ++c)
+            if (same_text(panels[p].curves[c].title, title))
+                return 1;
+    return 0;
+}
+
+static int has_point(const fst_chart_curve *curve)
+{
+    for (size_t i = 0; i < curve->count; ++i)
+        if (isfinite(curve->x[i]) && isfinite(curve->y[i]))
+            return 1;
+    return 0;
+}
+
+/* Whether a curve may bear the name of its chart: not what is unstable, special points, and lines beside others. */
+static int is_main(const fst_chart_curve *curve)
+{
+    return curve->style != FST_CURVE_DASHED && curve->style != FST_CURVE_SIGNS &&
+           curve->style != FST_CURVE_THIN && has_point(curve);
+}
+
+/* Take the curves of one panel over, in one colour.  `name` is that of its chart, until a curve has it. */
+static int take_curves(fst_chart *all, fst_chart_panel *panels, int count, fst_chart_panel *panel,
+                       const fst_chart_panel *one, fst_colour colour, const char **name)
+{
+    const size_t sum = (size_t)(panel->curve_count + one->curve_count);
+    fst_chart_curve *curves = fst_chart_keep(all, (sum + 1) * sizeof *curves);
+    if (!curves)
+        return 0;
+    memcpy(curves, panel->curves, (size_t)panel->curve_count * sizeof *curves);
+    panel->curves = curves;
+    for (int c = 0; c < one->curve_count; ++c) {
+        fst_chart_curve curve = one->curves[c];
+        curve.colour = colour;
+        if (is_main(&curve)) {
+            curve.title = *name;
+            *name = NULL;
+        } else if (curve.title && is_named(panels, count, curve.title)) {
+            curve.title = NULL;
+        }
+        curves[panel->curve_count++] = curve;
+    }
+    return 1;
+}
+
+static int take_chart(fst_chart *all, fst_chart_panel *panels, int *count, const fst_chart *one,
+                      fst_colour colour, const char *name)
+{
+    const char *own = fst_chart_text(all, name);
+    int good = own != NULL;
+    for (int p = 0; p < one->panel_count && good; ++p) {
+        fst_chart_panel *panel = panel_for(panels, count, &one->panels[p]);
+        good = take_curves(all, panels, *count, panel, &one->panels[p], colour, &own);
+    }
+    return good;
+}
+
+/* What is of the whole chart is that of the first one. */
+static void begin(fst_chart *all, const fst_chart *first, const char *about)
+{
+    void *memory = all->memory;
+    *all = *first;
+    all->memory = memory;
+    if (about[0])
+        all->about = fst_chart_text(all, about);
+}
+
+fst_status fst_charts_over(fst_chart *const *charts, const char *const *names, int count, const char *about,
+                           fst_chart **all, fst_error *error)
+{
+    size_t most = 1;
+    for (int i = 0; i < count; ++i)
+        most += (size_t)charts[i]->panel_count;
+    fst_chart *made = *all = fst_chart_new();
+    fst_chart_panel *panels = made ? fst_chart_keep(made, most * sizeof *panels) : NULL;
+    int good = panels != NULL, panel_count = 0;
+    fst_status status = FST_OK;
+    for (int i = 0; i < count && good && status == FST_OK; ++i) {
+        fst_chart_adopt(made, charts[i]);
+        if (i == 0)
+            begin(made, charts[0], about);
+        status = lay_abscissa(made, charts[0], charts[i], error);
+        if (status == FST_OK)
+            good = take_chart(made, panels, &panel_count, charts[i], COLOURS[i], names[i]);
+    }
+    if (good && status == FST_OK) {
+        made->panels = panels;
+        made->panel_count = panel_count;
+        return FST_OK;
+    }
+    fst_chart_free(made);
+    *all = NULL;
+    return status != FST_OK ? status
+                            : fst_fail(error, FST_NO_MEMORY, "fst_figure_over", "no memory for a figure");
+}

@@ -1,0 +1,233 @@
+/* figure_over.c - fst_figure_over(): files laid over each other, and what differs between them. */
+#include <festoon/bead_files.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "draw/caption.h"
+#include "draw/charts_over.h"
+#include "draw/figure_sweep.h"
+#include "draw/figure_trajectory.h"
+
+/* What is asked for. */
+typedef struct wanted {
+    const fst_figure_options *trajectories;
+    fst_sweep_figure sweeps;
+    int used[FST_AXIS_LIMIT]; /* by place in sweeps.at: whether a sweep varies that key */
+    const char *observable;   /* of branches; NULL: chosen */
+} wanted;
+
+/* One file. */
+typedef struct source {
+    const char *path;
+    fst_chart *chart;
+    fst_params *scene; /* NULL: the file does not say */
+    const char *shown[FST_AXIS_LIMIT];
+    int shown_count; /* keys that the figure shows anyway */
+} source;
+
+static fst_status no_memory(fst_error *error)
+{
+    return fst_fail(error, FST_NO_MEMORY, "fst_figure_over", "no memory for a figure");
+}
+
+static int is_branch(const char *path)
+{
+    const char *ending = strrchr(path, '.');
+    return ending && strcmp(ending, ".json") == 0;
+}
+
+static void note_key(source *s, const char *key)
+{
+    s->shown[s->shown_count++] = fst_param_at(fst_param_find(key))->key;
+}
+
+/* ------------------------------------------------------------------ reading */
+
+static fst_status take_branch(source *s, const wanted *w, fst_error *error)
+{
+    fst_branch branch;
+    fst_status status = fst_branch_read(s->path, &branch, error);
+    if (status != FST_OK)
+        return status;
+    status = fst_chart_of_branch(&branch, w->observable ? w->observable : fst_branch_observable(&branch),
+                                 w->sweeps.units, NULL, 0, &s->chart, error);
+    note_key(s, branch.key);
+    if (branch.second_key[0])
+        note_key(s, branch.second_key);
+    s->scene = branch.scene;
+    branch.scene = NULL;
+    fst_branch_free(&branch);
+    return status;
+}
+
+/* What is asked for of one sweep: the values of those axes that it has. */
+static fst_sweep_figure figure_of(const fst_grid *grid, wanted *w)
+{
+    fst_sweep_figure figure = w->sweeps;
+    int count = 0;
+    memset(figure.at, 0, sizeof figure.at);
+    for (int i = 0; i < FST_AXIS_LIMIT && w->sweeps.at[i]; ++i)
+        for (int axis = 0; axis < fst_grid_axis_count(grid); ++axis) {
+            const char *key = fst_grid_key(grid, axis), *at = w->sweeps.at[i];
+            if (strncmp(at, key, strlen(key)) == 0 && at[strlen(key)] == '=') {
+                figure.at[count++] = at;
+                w->used[i] = 1;
+            }
+        }
+    return figure;
+}
+
+static fst_status take_sweep(source *s, wanted *w, fst_error *error)
+{
+    fst_grid *grid;
+    fst_status status = fst_sweep_read_grid(s->path, &grid, error);
+    if (status != FST_OK)
+        return status;
+    const fst_sweep_figure figure = figure_of(grid, w);
+    for (int i = 0; i < fst_grid_axis_count(grid); ++i)
+        if (fst_grid_axis_points(grid, i) > 1)
+            note_key(s, fst_grid_key(grid, i));
+    s->scene = malloc(sizeof *s->scene);
+    if (!s->scene)
+        status = no_memory(error);
+    else if (fst_grid_params(grid, 0, s->scene, NULL) != FST_OK)
+        *s->scene = *fst_grid_base(grid);
+    fst_grid_free(grid);
+    return status == FST_OK ? fst_chart_of_sweep(s->path, &figure, 1, &s->chart, error) : status;
+}
+
+static fst_status take_trajectory(source *s, const wanted *w, fst_error *error)
+{
+    fst_table table;
+    int has_beads = 0;
+    fst_status status = fst_trajectory_has_beads(s->path, &has_beads, error);
+    if (status == FST_OK && has_beads)
+        status = fst_fail(error, FST_BAD_INPUT, s->path,
+                          "a trajectory of several beads or in a world is drawn alone");
+    if (status == FST_OK)
+        status = fst_trajectory_read(s->path, &table, error);
+    if (status != FST_OK)
+        return status;
+    status = fst_chart_of_trajectory(&table, w->trajectories, 1, &s->chart, error);
+    s->scene = malloc(sizeof *s->scene);
+    if (s->scene)
+        *s->scene = table.params;
+    else if (status == FST_OK)
+        status = no_memory(error);
+    fst_table_free(&table);
+    return status;
+}
+
+static fst_status take(source *s, wanted *w, fst_error *error)
+{
+    int is_sweep = 0;
+    if (is_branch(s->path))
+        return take_branch(s, w, error);
+    const fst_status status = fst_is_sweep(s->path, &is_sweep, error);
+    if (status != FST_OK)
+        return status;
+    return is_sweep ? take_sweep(s, w, error) : take_trajectory(s, w, error);
+}
+
+/* ------------------------------------------------------------------ names */
+
+static const char *file_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+/* A name for each file: what differs, and the file's name where that does not tell it from another. */
+static void name_files(const source *sources, int count, char (*names)[FST_CAPTION_SIZE], char *same,
+                       size_t size)
+{
+    const fst_params *scenes[FST_CHARTS_OVER];
+    const char *shown[FST_CHARTS_OVER * FST_AXIS_LIMIT];
+    int shown_count = 0, known = 1, alike[FST_CHARTS_OVER] = {0};
+    for (int i = 0; i < count; ++i) {
+        scenes[i] = sources[i].scene;
+        known = known && scenes[i];
+        names[i][0] = '\0';
+        for (int k = 0; k < sources[i].shown_count; ++k)
+            shown[shown_count++] = sources[i].shown[k];
+    }
+    same[0] = '\0';
+    if (known)
+        fst_caption_differences(scenes, count, shown, shown_count, names, same, size);
+    for (int i = 0; i < count; ++i)
+        for (int j = 0; j < count; ++j)
+            alike[i] |= j != i && strcmp(names[i], names[j]) == 0;
+    for (int i = 0; i < count; ++i)
+        if (alike[i] || !names[i][0]) {
+            const size_t used = strlen(names[i]);
+            (void)snprintf(names[i] + used, FST_CAPTION_SIZE - used, used ? " (%.100s)" : "%.100s",
+                           file_name(sources[i].path));
+        }
+}
+
+/* ------------------------------------------------------------------ the figure */
+
+static fst_status draw(const source *sources, int count, const char *out, fst_error *error)
+{
+    char names[FST_CHARTS_OVER][FST_CAPTION_SIZE], same[FST_CAPTION_SIZE];
+    fst_chart *charts[FST_CHARTS_OVER], *all;
+    const char *words[FST_CHARTS_OVER];
+    name_files(sources, count, names, same, sizeof same);
+    for (int i = 0; i < count; ++i) {
+        charts[i] = sources[i].chart;
+        words[i] = names[i];
+    }
+    fst_status status =
+        fst_charts_over(charts, words, count, same[0] ? same : "all else as by default", &all, error);
+    if (status == FST_OK)
+        status = fst_figure_chart(out, all, error);
+    fst_chart_free(all);
+    return status;
+}
+
+/* Beside a branch a sweep shows the branch's observable, so that they have something in common. */
+static void match_keys(const char *const *paths, int count, wanted *w)
+{
+    int branches = 0;
+    for (int i = 0; i < count; ++i)
+        branches += is_branch(paths[i]);
+    if (branches == 0 || branches == count)
+        return;
+    if (!w->observable)
+        w->observable = w->sweeps.keys[0] ? w->sweeps.keys[0] : "mean_r";
+    if (!w->sweeps.keys[0])
+        w->sweeps.keys[0] = w->observable;
+}
+
+fst_status fst_figure_over(const char *const *paths, int count, const fst_figure_options *trajectories,
+                           const fst_sweep_figure *sweeps, const char *observable, const char *out,
+                           fst_error *error)
+{
+    const fst_figure_options usual = fst_default_figure_options();
+    wanted w = {.trajectories = trajectories ? trajectories : &usual, .observable = observable};
+    source sources[FST_CHARTS_OVER] = {{.path = NULL}};
+    if (count < 1 || count > FST_CHARTS_OVER)
+        return fst_fail(error, FST_BAD_INPUT, "fst_figure_over",
+                        "%d files are laid over each other, not 1 to %d", count, FST_CHARTS_OVER);
+    if (sweeps)
+        w.sweeps = *sweeps;
+    match_keys(paths, count, &w);
+    fst_status status = FST_OK;
+    for (int i = 0; i < count && status == FST_OK; ++i) {
+        sources[i].path = paths[i];
+        status = take(&sources[i], &w, error);
+    }
+    for (int i = 0; i < FST_AXIS_LIMIT && w.sweeps.at[i] && status == FST_OK; ++i)
+        if (!w.used[i])
+            status = fst_fail(error, FST_BAD_INPUT, "fst_sweep_figure.at",
+                              "no sweep of these varies what \"%.80s\" says", w.sweeps.at[i]);
+    if (status == FST_OK)
+        status = draw(sources, count, out, error);
+    for (int i = 0; i < count; ++i) {
+        fst_chart_free(sources[i].chart);
+        free(sources[i].scene);
+    }
+    return status;
+}
