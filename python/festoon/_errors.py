@@ -94,6 +94,7 @@ CALLS = {
     "fst_run_json()": "Run.to_dict()",
     "fst_track_options.scale": "scale",
     "fst_measure_options.drive": "drive",
+    "fst_sweep_figure.at": "at={KEY: VALUE}",
 }
 
 #: Arguments that have another name in Python than in C.

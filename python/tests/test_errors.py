@@ -97,7 +97,8 @@ def test_the_nearest_keyword_is_named(wrong, right):
         lambda path: fs.read(f"{path}.db"), lambda path: fs.read(f"{path}.json"), fs.read_track, fs.measure,
         lambda path: fs.fit(path, free="kappa"), lambda path: fs.fit(track=path, free="kappa"), fs.track,
         lambda path: fs.export(path, "rows.csv"), lambda path: fs.export(path, "rows.csv", ["mean_r"]),
-        lambda path: fs.figures.sweep(path, "map.svg"), lambda path: fs.figures.points("run.json", path, "points.svg"),
+        lambda path: fs.figures.sweep(path, "map.svg"), lambda path: fs.figures.over([path, path], "two.svg"),
+        lambda path: fs.figures.points("run.json", path, "points.svg"),
         lambda path: fs.Bead(magnet__file=path),
     ],
 )

@@ -55,7 +55,8 @@ def test_figures_of_branches_fields_and_sweeps(tmp_path):
     fs.Bead().figure(tmp_path / "field.svg")
     fs.sweep(fs.Bead(run__periods=20), frequency="9:11:5", file=tmp_path / "sweep.db")
     fs.figures.sweep(tmp_path / "sweep.db", tmp_path / "sweep.svg", ["mean_r"])
-    for name in ("branch", "field", "sweep"):
+    fs.figures.over([tmp_path / "sweep.db"] * 2, tmp_path / "over.svg", keys=["mean_r"], units="lab")
+    for name in ("branch", "field", "sweep", "over"):
         assert b"</svg>" in (tmp_path / f"{name}.svg").read_bytes()
 
 
