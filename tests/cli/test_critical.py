@@ -1,7 +1,7 @@
 """`festoon critical`: the border of runs is the special point of the branch; where there is none, and bad input.
 
 tests: sweep/critical.c cli/critical.c
-labels: slow"""
+labels: slow numbers"""
 
 import json
 import unittest

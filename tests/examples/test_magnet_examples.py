@@ -1,5 +1,7 @@
 """examples/magnets: every scene checks and runs as its comment says, the map is what its maker writes, and the field of
-the bar is that of its charged ends, summed here."""
+the bar is that of its charged ends, summed here.
+
+labels: numbers"""
 
 import importlib.util
 import json

@@ -1,5 +1,7 @@
 """The shorter half of docs/tutorial.md is true, and what README.md shows of a run: the commands run and print what the
-pages say.  (test_tutorial_long.py runs both pages.)"""
+pages say.  (test_tutorial_long.py runs both pages.)
+
+labels: numbers"""
 
 import os
 import pathlib

@@ -1,6 +1,6 @@
-/* The coverage of the errors of a fit: of a hundred tables with known noise about 68 must give each parameter
- * within one standard deviation, and about 68 within the profile's interval.  A wild number in each of fifty
- * changes nothing of it.
+/* The coverage of the errors of a fit: of a hundred tables with known noise (FESTOON_FITS: of so many) about 68 in 100
+ * must give each parameter within one standard deviation, and about 68 within the profile's interval.  A wild number in
+ * each of half as many changes nothing of it.
  * tests: fit/fit.c fit/errors.c fit/bootstrap.c
  * labels: long slow */
 #include "numeric.h"
@@ -8,7 +8,14 @@
 
 #include <stdio.h>
 
-enum { FITS = 100, WILD_FITS = 50, ROWS = 5 };
+enum { ROWS = 5 };
+
+static int fits_wanted(void)
+{
+    const char *given = getenv("FESTOON_FITS");
+    const int fits = given ? atoi(given) : 100;
+    return fits > 10 ? fits : 10;
+}
 
 static const char *const keys[] = {"model.kappa", "friction.gamma"};
 
@@ -72,19 +79,40 @@ static coverage fit_many(const fst_params *truth_params, int fits, int wild)
     return c;
 }
 
-/* So many of 68.3 % come in 998 of 1000 samples of that size, and at least so many of 95.4 % in 999. */
-typedef struct bounds {
-    int fits, fewest, most, fewest_of_two;
-} bounds;
-
-static void check(const coverage *c, const bounds *of)
+/* How many of n have a property of this probability with no more than `rest` of all samples below. */
+static int quantile(int n, double probability, double rest)
 {
+    double term = pow(1.0 - probability, n), sum = term;
+    int k = 0;
+    while (sum < rest && k < n) {
+        term *= (n - k) * probability / ((k + 1) * (1.0 - probability));
+        sum += term;
+        ++k;
+    }
+    return k;
+}
+
+/* Of 1000 samples of that size 998 lie between these bounds for one standard deviation, and 999 above that for two. */
+static void check(const coverage *c, int fits)
+{
+    const double one = 0.6827, two = 0.9545;
+    const int fewest = quantile(fits, one, 1e-3), most = fits - quantile(fits, 1.0 - one, 1e-3);
     for (int i = 0; i < 3; ++i) {
-        assert_in_range(c->one[i], of->fewest, of->most);
-        assert_in_range(c->two[i], of->fewest_of_two, of->fits);
+        assert_in_range(c->one[i], fewest, most);
+        assert_in_range(c->two[i], quantile(fits, two, 1e-3), fits);
     }
     for (int i = 0; i < 2; ++i)
-        assert_in_range(c->interval[i], of->fewest, of->most);
+        assert_in_range(c->interval[i], fewest, most);
+}
+
+/* What the bounds are for samples that tables of the binomial distribution have. */
+static void test_bounds(void **state)
+{
+    (void)state;
+    assert_int_equal(quantile(100, 0.6827, 1e-3), 53);
+    assert_int_equal(quantile(10, 0.5, 0.0107421875), 1);
+    assert_int_equal(quantile(10, 0.5, 0.0107421876), 2);
+    assert_int_equal(quantile(20, 0.5, 0.0206947326), 5);
 }
 
 static void test_coverage(void **state)
@@ -93,10 +121,12 @@ static void test_coverage(void **state)
     fst_params params = fst_default_params();
     params.model_kappa = 1.4;
     params.friction_gamma = 330.0;
-    const coverage c = fit_many(&params, FITS, 0);
-    check(&c, &(bounds){FITS, 54, 82, 88});
+    const int fits = fits_wanted();
+    const coverage c = fit_many(&params, fits, 0);
+    check(&c, fits);
     assert_in_range(c.outliers, 0, 2);
-    assert_true(c.chi2 / FITS > 0.85 && c.chi2 / FITS < 1.15);
+    const double wide = 4.0 * sqrt(2.0 / (13.0 * fits)); /* four standard deviations of a mean of chi^2 / 13 */
+    assert_true(fabs(c.chi2 / fits - 1.0) < wide);
 }
 
 static void test_coverage_beside_a_wild_number(void **state)
@@ -105,10 +135,11 @@ static void test_coverage_beside_a_wild_number(void **state)
     fst_params params = fst_default_params();
     params.model_kappa = 1.8;
     params.friction_gamma = 270.0;
-    const coverage c = fit_many(&params, WILD_FITS, 1);
-    check(&c, &(bounds){WILD_FITS, 24, 43, 42});
-    assert_int_equal(c.named, WILD_FITS);
-    assert_in_range(c.outliers, WILD_FITS, WILD_FITS + 2);
+    const int fits = fits_wanted() / 2;
+    const coverage c = fit_many(&params, fits, 1);
+    check(&c, fits);
+    assert_int_equal(c.named, fits);
+    assert_in_range(c.outliers, fits, fits + 2);
 }
 
 /* A lost minus makes a number wrong by a thousand errors: it drags the plain search far away, and the robust
@@ -145,6 +176,7 @@ int main(void)
     if (!fst_fit_present() || !fst_lapack_present())
         return 77;
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_bounds),
         cmocka_unit_test(test_coverage),
         cmocka_unit_test(test_coverage_beside_a_wild_number),
         cmocka_unit_test(test_lost_sign_beside_a_wild_number),
