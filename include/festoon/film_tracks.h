@@ -18,12 +18,21 @@ typedef struct fst_film_track_options {
                             allowed for; NAN: it is not */
     const char *csv;     /* the track as a file, festoon\'s own CSV; NULL: none */
     const char *overlay; /* a film, .mp4 or .mov, that shows what was found; NULL: none */
-    const char *picture; /* a picture, .png, of the same; NULL: none */
+    const char *picture; /* a picture, .png, of the same, also where no scale was found; NULL: none */
     const fst_progress *progress; /* NULL: nobody is told */
 } fst_film_track_options;
 FST_API fst_film_track_options fst_default_film_track_options(void);
 
 /* What is known of a tracked film. */
+/* An ellipse in the still picture that an edge of brightness follows. */
+typedef struct fst_plate_edge {
+    double diameter[2]; /* the longer and the shorter one, pixels */
+    double error;       /* how far the edge is from the ellipse, pixels */
+    double share;       /* of the ellipse, along which there is an edge */
+    double contrast;    /* the mean step of brightness there, gray levels */
+} fst_plate_edge;
+enum { FST_PLATE_EDGES = 6 };
+
 typedef struct fst_film_track_report {
     int width, height;       /* of its pictures, after turning them as the film says */
     int frames, lost, twins; /* all frames; frames without the bead; frames that repeat the one before */
@@ -36,6 +45,10 @@ typedef struct fst_film_track_report {
     double scale;     /* mm a pixel in the middle of the path; NAN: no scale */
     double plate[2];  /* the longer and the shorter diameter of the plate's edge, pixels; NAN: not asked */
     double rim_error; /* how far its points are from the ellipse, pixels */
+    /* Edges that may be the plate's, the steepest first: of these the outermost is taken that is at least a quarter as steep
+     * as the first. */
+    fst_plate_edge edges[FST_PLATE_EDGES];
+    int edge_count, edge_taken; /* no plate is asked for: 0, -1 */
     char format[64], codec[64]; /* the file's, for a person */
     char remark[256];           /* what else a person should know; "" */
 } fst_film_track_report;

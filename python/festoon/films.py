@@ -27,7 +27,9 @@ def _facts(struct: Any) -> Dict[str, Any]:
     found: Dict[str, Any] = {}
     for name, field in ffi.typeof(struct).item.fields:
         value = getattr(struct, name)
-        if field.type.kind == "array":
+        if field.type.kind == "array" and field.type.item.kind == "struct":
+            value = [_facts(ffi.addressof(value, i)) for i in range(len(value))]
+        elif field.type.kind == "array":
             is_text = field.type.item.cname == "char"
             value = text_of(value) if is_text else ffi.unpack(value, len(value))
             if not is_text and field.type.item.kind == "array":
@@ -93,4 +95,5 @@ def track(film: Path, *, progress: Progress = None, **given: Any) -> Any:
     del kept
     made = Track._of(found)
     made.report = _facts(report)
+    made.report["edges"] = made.report["edges"][:report.edge_count]
     return made

@@ -29,6 +29,22 @@ static fst_status read_options(const arguments *given, fst_film_track_options *t
     return read_values(given, rows, sizeof rows / sizeof *rows, error);
 }
 
+/* The edge that was taken for the plate's, and those that were not. */
+static void print_edges(const fst_film_track_report *r, FILE *out)
+{
+    (void)fprintf(out, "plate       %.1f x %.1f pixels; its edge is within %.2f pixels of an ellipse\n",
+                  r->plate[0], r->plate[1], r->rim_error);
+    if (r->edge_count > 1)
+        (void)fprintf(out,
+                      "            the outermost edge that is not faint, %.0f gray levels steep; others:\n",
+                      r->edges[r->edge_taken].contrast);
+    for (int i = 0; i < r->edge_count; ++i)
+        if (i != r->edge_taken)
+            (void)fprintf(out, "            %.1f x %.1f pixels, %.0f gray levels, along %.0f %% of it\n",
+                          r->edges[i].diameter[0], r->edges[i].diameter[1], r->edges[i].contrast,
+                          100.0 * r->edges[i].share);
+}
+
 static void print_report(const fst_film_track_report *r, int by_bead, FILE *out)
 {
     (void)fprintf(out, "film        %s, %s, %d x %d pixels\n", r->format, r->codec, r->width, r->height);
@@ -53,9 +69,8 @@ static void print_report(const fst_film_track_report *r, int by_bead, FILE *out)
         (void)fprintf(
             out, "            by the bead's width, which half a pixel more or less would change by %.1f %%\n",
             50.0 / r->diameter);
-    if (!isnan(r->plate[0]))
-        (void)fprintf(out, "plate       %.1f x %.1f pixels; its edge is within %.2f pixels of an ellipse\n",
-                      r->plate[0], r->plate[1], r->rim_error);
+    if (r->edge_count > 0)
+        print_edges(r, out);
 }
 
 /* What makes a person look twice. */

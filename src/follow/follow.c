@@ -203,13 +203,20 @@ static void middle_of_path(const tracking *t, double middle[2], double *reach)
 static fst_status plane_of_plate(tracking *t, const double middle[2], double reach, fst_error *error)
 {
     double horizon[2];
-    fst_status status = follow_rim_find(&t->still, t->path, middle, reach + 0.5 * t->look.diameter, &t->rim,
-                                        &t->report->rim_error, error);
+    follow_rim found;
+    fst_status status =
+        follow_rim_find(&t->still, t->path, middle, reach + 0.5 * t->look.diameter, &found, error);
     if (status != FST_OK)
         return status;
     t->has_rim = 1;
-    t->report->plate[0] = 2.0 * t->rim.axes[0];
-    t->report->plate[1] = 2.0 * t->rim.axes[1];
+    t->rim = found.ellipses[found.taken];
+    const fst_plate_edge *edge = &found.edges[found.taken];
+    t->report->plate[0] = edge->diameter[0];
+    t->report->plate[1] = edge->diameter[1];
+    t->report->rim_error = edge->error;
+    memcpy(t->report->edges, found.edges, sizeof found.edges);
+    t->report->edge_count = found.count;
+    t->report->edge_taken = found.taken;
     follow_plate_horizon(&t->sizes, &t->rim, t->still.width, t->still.height, horizon);
     return follow_plane_of_circle(&t->rim, horizon, 0.5 * t->scale.length[0], &t->plane, error);
 }
@@ -340,6 +347,14 @@ static fst_status make_track(const tracking *t, fst_track *track, fst_error *err
     return FST_OK;
 }
 
+/* Where no scale was found, the picture and the overlay show why: they are written all the same. */
+static void show_what_was_found(tracking *t)
+{
+    if (follow_overlay_finish(&t->overlay, &t->still, &t->look, t->columns, t->rows, t->frames,
+                              t->has_rim ? &t->rim : NULL, NULL) == FST_OK)
+        (void)follow_overlay_commit(&t->overlay, NULL);
+}
+
 static fst_status perform(tracking *t, fst_track *track, fst_error *error)
 {
     const fst_film_track_options *o = t->options;
@@ -357,10 +372,14 @@ static fst_status perform(tracking *t, fst_track *track, fst_error *error)
     if (status == FST_OK && t->report->lost == t->frames)
         status =
             fst_fail(error, FST_BAD_INPUT, t->path, "the bead was found in none of its %d frames", t->frames);
-    if (status == FST_OK)
-        status = make_plane(t, error);
-    if (status == FST_OK)
-        status = tell_times(t, error);
+    if (status != FST_OK)
+        return status;
+    status = make_plane(t, error);
+    if (status != FST_OK) {
+        show_what_was_found(t);
+        return status;
+    }
+    status = tell_times(t, error);
     if (status == FST_OK)
         status = make_track(t, track, error);
     if (status == FST_OK)
@@ -390,8 +409,13 @@ fst_status fst_film_track(const char *film, const fst_film_track_options *option
                   .options = options ? options : &defaults,
                   .report = report ? report : &unwanted,
                   .source = {.descriptor = -1}};
-    *t.report = (fst_film_track_report){
-        .first_lost = -1, .fps = NAN, .jitter = NAN, .scale = NAN, .plate = {NAN, NAN}, .rim_error = NAN};
+    *t.report = (fst_film_track_report){.first_lost = -1,
+                                        .fps = NAN,
+                                        .jitter = NAN,
+                                        .scale = NAN,
+                                        .plate = {NAN, NAN},
+                                        .rim_error = NAN,
+                                        .edge_taken = -1};
     *track = (fst_track){.rows = 0};
     if (t.options->cookie != OPTIONS_COOKIE)
         return fst_fail(error, FST_BAD_INPUT, "fst_film_track",

@@ -20,6 +20,7 @@ enum { RAYS = 360, CANDIDATES = 6, TRIALS = 3000, REPEATS = 4 };
 
 #define NEAR 2.0        /* pixels from an ellipse to a step of its own */
 #define LEAST_SHARE 0.5 /* of the rays that must meet the edge */
+#define STRONG 0.25     /* of the steepest edge: what is fainter, as a shadow, is no edge of the plate */
 #define STEP_OF_NOISE 3.0
 #define LEAST_STEP 4.0 /* gray levels within four pixels */
 
@@ -107,27 +108,63 @@ static double meets(const rim *r, const follow_ellipse *e, int index)
     return root >= 0.0 ? (-p + sqrt(root)) / q : NAN;
 }
 
+/* The step of a ray that is nearest to an ellipse; -1: none is near. */
+static int step_on(const rim *r, const follow_ellipse *e, int index, double near)
+{
+    const double way = meets(r, e, index);
+    const ray *here = &r->rays[index];
+    int found = -1;
+    for (int k = 0; k < here->count; ++k)
+        if (fabs(here->way[k] - way) < near) {
+            near = fabs(here->way[k] - way);
+            found = k;
+        }
+    return found;
+}
+
 /* The steps of all rays that lie on an ellipse; returns how many, their places in `points`. */
-static int on_ellipse(const rim *r, const follow_ellipse *e, double near, double *points, double *squares)
+static int on_ellipse(const rim *r, const follow_ellipse *e, double near, double *points)
 {
     int count = 0;
-    *squares = 0.0;
     for (int i = 0; i < RAYS; ++i) {
-        const double way = meets(r, e, i);
-        double best = near, found = NAN;
-        for (int k = 0; k < r->rays[i].count; ++k)
-            if (fabs(r->rays[i].way[k] - way) < best) {
-                best = fabs(r->rays[i].way[k] - way);
-                found = r->rays[i].way[k];
-            }
-        if (isnan(found))
+        const int k = step_on(r, e, i, near);
+        if (k < 0)
             continue;
-        points[2 * count] = r->middle[0] + found * cos(angle_of(i));
-        points[2 * count + 1] = r->middle[1] + found * sin(angle_of(i));
-        *squares += best * best;
+        points[2 * count] = r->middle[0] + r->rays[i].way[k] * cos(angle_of(i));
+        points[2 * count + 1] = r->middle[1] + r->rays[i].way[k] * sin(angle_of(i));
         ++count;
     }
     return count;
+}
+
+/* Take the steps on an ellipse away, and say of them what a person is told. */
+static fst_plate_edge take_steps(rim *r, const follow_ellipse *e)
+{
+    fst_plate_edge edge = {.diameter = {2.0 * e->axes[0], 2.0 * e->axes[1]}};
+    int count = 0, near = 0;
+    double squares = 0.0;
+    for (int i = 0; i < RAYS; ++i) {
+        const int k = step_on(r, e, i, NEAR);
+        if (k < 0)
+            continue;
+        ray *here = &r->rays[i];
+        const double off = here->way[k] - meets(r, e, i);
+        if (fabs(off) < 0.5 * NEAR) {
+            squares += off * off;
+            ++near;
+        }
+        edge.contrast += here->size[k];
+        ++count;
+        for (int j = k + 1; j < here->count; ++j) {
+            here->way[j - 1] = here->way[j];
+            here->size[j - 1] = here->size[j];
+        }
+        --here->count;
+    }
+    edge.share = (double)count / RAYS;
+    edge.contrast /= count > 0 ? count : 1;
+    edge.error = near > 0 ? sqrt(squares / near) : 0.0;
+    return edge;
 }
 
 /* An ellipse through the steps of five rays. */
@@ -147,40 +184,73 @@ static int try_five(rim *r, follow_ellipse *e)
     return follow_ellipse_fit(points, 5, e) && e->axes[1] > 0.3 * e->axes[0];
 }
 
+/* The ellipse that most rays meet, fitted to their steps; returns how many. */
+static int find_ellipse(rim *r, follow_ellipse *found)
+{
+    double points[2 * RAYS];
+    int most = 0;
+    for (int trial = 0; trial < TRIALS; ++trial) {
+        follow_ellipse e;
+        if (!try_five(r, &e))
+            continue;
+        const int count = on_ellipse(r, &e, NEAR, points);
+        if (count > most) {
+            most = count;
+            *found = e;
+        }
+    }
+    for (int repeat = 0; repeat < REPEATS && most >= 5; ++repeat) {
+        follow_ellipse e;
+        const int count = on_ellipse(r, found, repeat ? 0.5 * NEAR : NEAR, points);
+        if (!follow_ellipse_fit(points, count, &e))
+            break;
+        *found = e;
+        most = count;
+    }
+    return most;
+}
+
+/* Put an edge into its place, the steepest first. */
+static void keep_edge(follow_rim *rim_found, const follow_ellipse *ellipse, fst_plate_edge edge)
+{
+    int at = rim_found->count++;
+    for (; at > 0 && rim_found->edges[at - 1].contrast < edge.contrast; --at) {
+        rim_found->edges[at] = rim_found->edges[at - 1];
+        rim_found->ellipses[at] = rim_found->ellipses[at - 1];
+    }
+    rim_found->edges[at] = edge;
+    rim_found->ellipses[at] = *ellipse;
+}
+
+/* The outermost edge that is not faint. */
+static int outermost(const follow_rim *rim_found)
+{
+    int best = 0;
+    for (int i = 1; i < rim_found->count; ++i)
+        if (rim_found->edges[i].contrast >= STRONG * rim_found->edges[0].contrast &&
+            rim_found->edges[i].diameter[0] > rim_found->edges[best].diameter[0])
+            best = i;
+    return best;
+}
+
 fst_status follow_rim_find(const follow_still *still, const char *path, const double middle[2], double within,
-                           follow_ellipse *rim_found, double *error_px, fst_error *error)
+                           follow_rim *rim_found, fst_error *error)
 {
     rim *r = malloc(sizeof *r);
-    double points[2 * RAYS], squares = 0.0;
-    int most = 0;
+    *rim_found = (follow_rim){.taken = -1};
     if (!r)
         return fst_fail(error, FST_NO_MEMORY, path, "no memory for the edge of the plate");
     *r = (rim){.still = still, .middle = {middle[0], middle[1]}, .chance = 1};
     for (int i = 0; i < RAYS; ++i)
         look_along(r, i, within);
-    for (int trial = 0; trial < TRIALS; ++trial) {
-        follow_ellipse e;
-        if (!try_five(r, &e))
-            continue;
-        const int count = on_ellipse(r, &e, NEAR, points, &squares);
-        if (count > most) {
-            most = count;
-            *rim_found = e;
-        }
-    }
-    for (int repeat = 0; repeat < REPEATS && most >= 5; ++repeat) {
-        follow_ellipse e;
-        const int count = on_ellipse(r, rim_found, repeat ? 0.5 * NEAR : NEAR, points, &squares);
-        if (!follow_ellipse_fit(points, count, &e))
-            break;
-        *rim_found = e;
-        most = count;
-        *error_px = sqrt(squares / count);
-    }
+    follow_ellipse e;
+    while (rim_found->count < FST_PLATE_EDGES && find_ellipse(r, &e) >= LEAST_SHARE * RAYS)
+        keep_edge(rim_found, &e, take_steps(r, &e));
     free(r);
-    if (most < LEAST_SHARE * RAYS)
+    if (rim_found->count == 0)
         return fst_fail(error, FST_BAD_INPUT, path,
                         "the edge of the plate was not found: it must stand out from what is beyond it, and at "
                         "least half of it must be in the picture; give two points or four instead");
+    rim_found->taken = outermost(rim_found);
     return FST_OK;
 }

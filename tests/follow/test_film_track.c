@@ -258,8 +258,7 @@ static void edge_of_a_plate(void **state)
     (void)state;
     const follow_still still = {.width = WIDTH, .height = HEIGHT, .level = level, .noise = 1.0};
     const double middle[2] = {95.0, 84.0};
-    follow_ellipse rim;
-    double off;
+    follow_rim found;
     fst_error error;
     for (int row = 0; row < HEIGHT; ++row)
         for (int column = 0; column < WIDTH; ++column) {
@@ -273,14 +272,64 @@ static void edge_of_a_plate(void **state)
                     5.0)
                     level[row * WIDTH + column] = 30.0f;
         }
-    assert_int_equal(follow_rim_find(&still, "film", middle, 30.0, &rim, &off, &error), FST_OK);
+    assert_int_equal(follow_rim_find(&still, "film", middle, 30.0, &found, &error), FST_OK);
+    const follow_ellipse rim = found.ellipses[found.taken];
     CHECK_CLOSE(rim.centre[0], 100.3, 0.1);
     CHECK_CLOSE(rim.centre[1], 80.6, 0.1);
     CHECK_CLOSE(rim.axes[0], 80.0, 0.1);
     CHECK_CLOSE(rim.axes[1], 65.0, 0.1);
+    assert_int_equal(found.count, 1);
     for (int i = 0; i < WIDTH * HEIGHT; ++i)
         level[i] = 100.0f + 0.1f * (float)(i % 7);
-    assert_int_equal(follow_rim_find(&still, "film", middle, 30.0, &rim, &off, &error), FST_BAD_INPUT);
+    assert_int_equal(follow_rim_find(&still, "film", middle, 30.0, &found, &error), FST_BAD_INPUT);
+    assert_int_equal(found.count, 0);
+}
+
+/* Circles about the middle of the picture: each level reaches to its radius; the outermost third of the pixels' columns on
+ * the right, from `cut` on, is dark. */
+static void draw_circles(const double *radii, const double *levels, int count, int cut)
+{
+    for (int row = 0; row < HEIGHT; ++row)
+        for (int column = 0; column < WIDTH; ++column) {
+            double sum = 0.0;
+            for (int k = 0; k < 64; ++k) {
+                const double r = hypot(column + (k % 8 - 3.5) / 8.0 - 100.0, row + (k / 8 - 3.5) / 8.0 - 80.0);
+                int i = 0;
+                while (i < count && r > radii[i])
+                    ++i;
+                sum += column >= cut ? 0.0 : levels[i];
+            }
+            level[row * WIDTH + column] = (float)(sum / 64.0);
+        }
+}
+
+/* A ring printed on the plate has steeper edges, and more of them are in the picture; a faint shadow lies around the plate.
+ * The plate's edge is taken, and all are told with their contrast. */
+static void a_ring_on_the_plate(void **state)
+{
+    (void)state;
+    static const double radii[] = {48.0, 53.0, 70.0, 76.0}, levels[] = {220.0, 20.0, 220.0, 120.0, 132.0};
+    const follow_still still = {.width = WIDTH, .height = HEIGHT, .level = level, .noise = 1.0};
+    const double middle[2] = {97.0, 82.0};
+    for (int cut = WIDTH; cut > 150; cut -= 35) {
+        follow_rim found;
+        fst_error error;
+        draw_circles(radii, levels, 4, cut);
+        assert_int_equal(follow_rim_find(&still, "film", middle, 30.0, &found, &error), FST_OK);
+        assert_int_equal(found.count, 4);
+        CHECK_CLOSE(found.edges[found.taken].diameter[0], 140.0, 0.2);
+        for (int i = 0; i < 4; ++i) {
+            int at = 0;
+            while (at < 4 && fabs(found.edges[i].diameter[0] - 2.0 * radii[at]) > 0.4)
+                ++at;
+            assert_in_range(at, 0, 3);
+            const double step = found.edges[i].contrast / fabs(levels[at + 1] - levels[at]);
+            assert_true(step > 0.7 &&
+                        (step < 1.02 || cut < WIDTH)); /* where it is cut the dark is a step too */
+            assert_true(i == 0 || found.edges[i].contrast <= found.edges[i - 1].contrast);
+            assert_true(found.edges[i].share > (cut == WIDTH || at < 2 ? 0.95 : 0.6));
+        }
+    }
 }
 
 int main(void)
@@ -290,6 +339,7 @@ int main(void)
         cmocka_unit_test(corners_that_are_none),  cmocka_unit_test(ellipses_from_points),
         cmocka_unit_test(plate_with_perspective), cmocka_unit_test(cover_of_a_disc),
         cmocka_unit_test(spots_at_the_edge),      cmocka_unit_test(edge_of_a_plate),
+        cmocka_unit_test(a_ring_on_the_plate),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -73,6 +73,11 @@ class Track(films.OnFilms):
         self.refused(good, "--scale|outside", "--scale", "1,2:3,4000=5mm")
         self.refused(good, "--distance|mm", "--scale", "plate 120 mm", "--distance", "1mm")
         self.refused(good, "--distance|more than 0", "--distance", "-3mm")
+        # The picture shows what was found, where no scale follows from it.
+        done = run("track", good, "-o", self.folder / "no.csv", "--scale", "plate 120 mm", "--distance", "1mm", "--picture",
+                   self.folder / "why.png")
+        self.assertEqual((done.returncode, (self.folder / "no.csv").exists()), (2, False))
+        self.assertTrue((self.folder / "why.png").read_bytes().startswith(b"\x89PNG"))
         self.refused(good, ".png", "--picture", self.folder / "x.jpg")
         self.refused(good, ".mp4", "--overlay", self.folder / "x.avi")
         self.refused(good, "cannot write", "--overlay", self.folder / "nowhere" / "x.mp4", status=1)
