@@ -273,7 +273,7 @@ static fst_status take_frames(film_fit *f, const fst_track *track, const fst_mea
         return fst_fail(error, FST_BAD_INPUT, "fst_track.length_unit",
                         "the track is in pixels: say how long one of them is");
     for (size_t i = 0; i < track->rows; ++i) {
-        if (track->flag[i] != FST_FRAME_SEEN)
+        if (track->flag[i] != FST_FRAME_SEEN || track->t[i] - track->t[0] < seen->settled_after_s)
             continue;
         const double x = track->x[i] - seen->centre[0], y = track->y[i] - seen->centre[1];
         f->t[f->frames] = track->t[i] - track->t[0];

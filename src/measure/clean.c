@@ -72,7 +72,7 @@ size_t measure_take_back(fst_track *track, measure_work *work)
     double row[MEASURE_MOST_COLUMNS];
     const double limit = 4.0 * usual_distance(work, work->scratch);
     const size_t spare = work->count; /* there is room for one row more */
-    for (size_t i = 0; i < track->rows; ++i) {
+    for (size_t i = work->first; i < track->rows; ++i) {
         if (track->flag[i] != FST_FRAME_REJECTED)
             continue;
         measure_place_row(work, spare, i);

@@ -443,7 +443,8 @@ fst_status measure_find_drive(measure_work *work, const fst_measure_options *opt
     found->symmetry = blended ? 2 : found->symmetry;
     found->unsure = !found->folded && found->symmetry == 2 && (blended || measure_may_hide_line(work, 1, 2));
     /* What every second festoon differs by may be but the rest of the motion's beginning. */
-    if (status == FST_OK && found->symmetry == 1 && work->half && measure_line_dies(work, 1)) {
+    if (status == FST_OK && found->symmetry == 1 && work->half &&
+        (work->drifts || measure_line_dies(work, 1))) {
         found->symmetry = 2;
         found->unsure = found->fades = 1;
     }

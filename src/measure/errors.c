@@ -386,8 +386,10 @@ fst_status measure_find_errors(const measure_work *work, const measure_drive *dr
     variances(work, &turns, variance, &covariance);
     if (work->f0 > 0)
         add_hidden(work, variance);
+    /* A drift too small to be seen is mostly a slope, which moves the rate by as much as chance does. */
+    variance[BEAD] *= work->first > 0 ? 2.0 : 1.0;
     for (int q = 0; q < QUANTITIES; ++q)
-        if (drive->standing || isinf(variance[R0]))
+        if (drive->standing || work->drifts || isinf(variance[R0]))
             variance[q] = NAN;
     take_radius(work, &turns, variance, slow, measured);
     take_rates(work, drive, variance, covariance, measured);

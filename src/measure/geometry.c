@@ -61,7 +61,7 @@ void measure_work_take(measure_work *work)
     const fst_track *track = work->track;
     const int timed = isfinite(track->fps);
     work->count = 0;
-    for (size_t i = 0; i < track->rows; ++i) {
+    for (size_t i = work->first; i < track->rows; ++i) {
         if (track->flag[i] != FST_FRAME_SEEN)
             continue;
         work->row[work->count] = i;

@@ -162,6 +162,8 @@ static fst_status find_motion(measure_work *work, fst_error *error)
         measure_work_take(work);
         status = measure_find_motion(work, error);
     }
+    if (status == FST_OK)
+        status = measure_settle(work, error);
     for (int again = 0; again < 4 && status == FST_OK && measure_reject_far(work->track, work) > 0; ++again) {
         measure_work_take(work);
         status = measure_find_motion(work, error);
@@ -244,6 +246,7 @@ fst_status fst_measure_track(fst_track *track, const fst_measure_options *option
     status = measure(&work, options, measured, error);
     if (status == FST_OK) {
         count_frames(track, measured);
+        measure_tell_settled(&work, measured);
         warn_of_frames(measured);
         if (isnan(measured->fps))
             forget_rates(measured);

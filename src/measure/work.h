@@ -2,6 +2,7 @@
  *
  *   clean.c     places that no bead can have been at              fst_track --> rows of seen places
  *   geometry.c  centre, tilt, rate of turning, festoons           rows --> r, alpha, and a model of both
+ *   settle.c    what of the film comes before the motion has settled
  *   drive.c     the drive, the symmetry, whether the clock is right
  *   errors.c    what would have come out with other turns
  *   measure.c   these in their order, and what is said of them
@@ -20,7 +21,9 @@ enum { MEASURE_CENTRE_X, MEASURE_CENTRE_Y, MEASURE_TILT_C, MEASURE_TILT_S, MEASU
 
 typedef struct measure_work {
     fst_track *track;
-    size_t count;          /* rows that are seen and not rejected */
+    size_t first;          /* row of the track from which the motion has settled */
+    int drifts;            /* it has not settled to the end of the film */
+    size_t count;          /* rows from there on that are seen and not rejected */
     size_t *row;           /* of the track */
     double *t;             /* s, from the middle of the film; frames where there is no clock */
     double *x, *y;         /* in the picture */
@@ -45,7 +48,7 @@ typedef struct measure_work {
 
 fst_status measure_work_begin(measure_work *work, fst_track *track, fst_error *error);
 void measure_work_free(measure_work *work);
-/* Take the rows of the track that are seen. */
+/* Take the rows of the track from work->first on that are seen. */
 void measure_work_take(measure_work *work);
 
 /* Mark places far outside of all others, or far from both neighbours by how fast the bead moves; returns how
@@ -84,6 +87,10 @@ double measure_duration(const measure_work *work);
 /* A row of the model of r, and of alpha (the first columns: 1, harmonics; then t). */
 int measure_radial_row(const measure_work *work, size_t i, double *row);
 int measure_angular_row(const measure_work *work, size_t i, double *row);
+
+/* Leave out the beginning of the film until the motion has settled, and find the motion of the rest. */
+fst_status measure_settle(measure_work *work, fst_error *error);
+void measure_tell_settled(const measure_work *work, fst_measurement *measured);
 
 /* What the rates tell of the drive. */
 typedef struct measure_drive {

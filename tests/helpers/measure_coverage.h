@@ -137,6 +137,46 @@ static inline void check_coverage(int kinds, int films)
         made_motion_free(&motions[i]);
 }
 
+/* Films that begin with the motion, long before it has settled: what is measured is the settled motion. */
+static inline void check_settling_coverage(int kinds, int films)
+{
+    static const double longest = 12.0;
+    made_motion settled[MOTIONS];
+    coverage c = {.counted = 0};
+    uint64_t chance = 20260103;
+    make_motions(settled, kinds, 1.0);
+    for (int kind = 0; kind < kinds; ++kind) {
+        made_motion motion;
+        fst_params params = fst_default_params();
+        params.drive_frequency = drives_hz[kind];
+        params.run_periods = ceil(longest * drives_hz[kind]);
+        params.run_discard = 0.0;
+        made_motion_follow(&motion, &params);
+        motion.mean_r = settled[kind].mean_r;
+        motion.std_r = settled[kind].std_r;
+        motion.bead = settled[kind].bead;
+        motion.festoons = settled[kind].festoons;
+        for (int i = 0; i < films / kinds; ++i) {
+            int has_drive;
+            made_film film = random_film(&chance, longest, &has_drive);
+            film.fps = fmax(film.fps, 100.0);
+            film.seconds = fmax(film.seconds, 6.0);
+            film.start = 0.0;
+            cover_film(&c, i, &motion, &film, has_drive);
+        }
+        made_motion_free(&motion);
+        made_motion_free(&settled[kind]);
+    }
+    for (int q = 0; q < COVERED; ++q) {
+        const double known = c.known[q], one = c.within[q][0] / known, two = c.within[q][1] / known;
+        const double scatter = sqrt(0.683 * 0.317 / known);
+        print_message("%-22s of %3.0f films, within one error: %.3f, two: %.3f, farthest %.1f\n",
+                      covered_names[q], known, one, two, c.farthest[q]);
+        assert_true(known > 0.85 * films && one > 0.683 - 3.5 * scatter && one < 0.683 + 6.0 * scatter);
+        assert_true(two > 0.954 - 3.5 * sqrt(0.954 * 0.046 / known) && c.farthest[q] < 5.0);
+    }
+}
+
 /* What has an error in films of few frames a second.  What the rate hides has none, and what it may hide a wide one. */
 static inline void check_coarse_coverage(int kinds, int films)
 {

@@ -16,8 +16,15 @@ static void test_coarse_films(void **state)
     check_coarse_coverage(MOTIONS, 500);
 }
 
+static void test_settling_films(void **state)
+{
+    (void)state;
+    check_settling_coverage(MOTIONS, 300);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_500_films), cmocka_unit_test(test_coarse_films)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_500_films), cmocka_unit_test(test_coarse_films),
+                                       cmocka_unit_test(test_settling_films)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
