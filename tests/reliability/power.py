@@ -327,8 +327,10 @@ def campaign(count, seed):
         for place, scene in enumerate(scenes(folder)):
             states = count // names + (place < count % names)
             broken = 0
-            for _ in range(states):
-                moment = rng.randint(0, len(scene.entries))
+            synced = [i + 1 for i, entry in enumerate(scene.entries) if entry[0] == "S"]
+            for state in range(states):
+                # Every other one just after a file was synced: what is promised then, and what names may lead to.
+                moment = rng.choice(synced) if state % 2 else rng.randint(0, len(scene.entries))
                 problem = scene.strike(moment, rng)
                 if problem:
                     broken += 1

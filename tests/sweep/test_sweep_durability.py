@@ -101,7 +101,7 @@ class Disks(Case):
         path = os.path.join(place, "a.db")
         words = ["sweep", *SHORT, "--over", "drive.frequency=9Hz:20Hz:1500", "-o", path]
         kept = []
-        for size in range(300, 20000, 500):
+        for size in range(300, 20000, 200):
             subprocess.run(["mount", "-o", f"remount,size={size}k", place], check=True)
             status, out, err = festoon(*words)
             if status == 0:
