@@ -217,6 +217,7 @@ static int find_clock(measure_work *work, double drive, int filmed, measure_driv
         const double before = work->fps;
         correct_clock(work, usual / work->fps);
         found->clock_follows = !timed;
+        found->clock_set = timed;
         found->motion = locked ? FST_MOTION_LOCKED : FST_MOTION_TURNING;
         found->radial = locked ? NAN : work->peak;
         found->relative = locked ? 1 : filmed;
@@ -332,7 +333,7 @@ static void look_for_standing(const measure_work *work, double drive, measure_dr
     const double unseen = measure_least_line(work);
     for (int lines = 1; lines <= 2 && isfinite(drive); ++lines) {
         const double expected = lines * (drive + fabs(work->bead));
-        if (expected < 0.5 * work->fps ||
+        if (2.0 * expected + 1.5 / measure_duration(work) < work->fps ||
             (measure_folded(expected, work->fps) > unseen && !measure_stands(work, expected)))
             continue;
         found->standing = found->folded = 1;

@@ -5,7 +5,8 @@
  * the turns are drawn again and again, with repetition and in blocks of neighbours (circular block bootstrap):
  * the scatter of the sums is the error. Residuals of one turn hang together, because they are not all noise of
  * pixels; whole turns hang together much less, and blocks of 1, 2 and 4 turns show how much.  The greatest of
- * the three errors is told.
+ * the three errors is told, but none less than the covariance of the regression.  Of 3 to 8 turns the scatter says
+ * little: there that covariance is widened by how residuals of neighbouring frames hang together.
  *
  * The tilt enters <r> as a systematic part: it stretches the plate by what the second harmonic in alpha says,
  * and that has an error of its own, which near zero has the distribution of a length: it is never negative.
@@ -20,7 +21,7 @@
 #include "base/dot.h"
 #include "base/error.h"
 
-enum { LEAST_TURNS = 8, DRAWS = 800 };
+enum { LEAST_TURNS = 3, MANY_TURNS = 8, DRAWS = 800 };
 
 /* What of the variance of r may be hidden before there is none. */
 #define MOST_HIDDEN 0.5
@@ -56,12 +57,6 @@ static void influence_of(const measure_work *work, size_t i, double influence[QU
     influence[BEAD] = moved[m - 1];
 }
 
-/* Whether two rows are of neighbouring frames. */
-static int neighbours(const measure_work *work, size_t i)
-{
-    return work->t[i + 1] - work->t[i] < 1.5 / work->fps;
-}
-
 /* Residuals of neighbouring frames: what of their variance is motion that the model lacks, because noise of
  * pixels is new in every frame.  The mean product of neighbours, 0 where it is no more than chance. */
 static double slow_variance(const measure_work *work, double *pairs)
@@ -70,7 +65,7 @@ static double slow_variance(const measure_work *work, double *pairs)
     double sum = 0.0;
     *pairs = 0.0;
     for (size_t i = 0; i + 1 < work->count; ++i)
-        if (neighbours(work, i)) {
+        if (measure_neighbours(work, i)) {
             sum += work->r_off[i] * work->r_off[i + 1];
             *pairs += 1.0;
         }
@@ -91,7 +86,7 @@ static fst_status sum_turns(const measure_work *work, double slow, double pairs,
         size_t turn = (size_t)((work->t[i] - from) * rate);
         turn = turn < turns->count ? turn : turns->count - (turns->count > 0);
         influence_of(work, i, influence);
-        if (slow > 0 && i + 1 < work->count && neighbours(work, i))
+        if (slow > 0 && i + 1 < work->count && measure_neighbours(work, i))
             influence[VARIANCE] += (work->r_off[i] * work->r_off[i + 1] - slow) / pairs;
         for (int q = 0; q < QUANTITIES; ++q)
             turns->sum[turn][q] += influence[q];
@@ -136,8 +131,9 @@ static double left_over(const measure_work *work, const double *off, const measu
 }
 
 /* The variances that noise which is new in every frame gives: turns are few, and the scatter of few is
- * uncertain, but errors are not less than this. */
-static void white_variances(const measure_work *work, double variance[QUANTITIES])
+ * uncertain, but errors are not less than this.  Of very few turns the scatter says little: there the noise is
+ * widened by how its neighbours hang together. */
+static void white_variances(const measure_work *work, int few, double variance[QUANTITIES])
 {
     const measure_regression *r = &work->radial, *a = &work->angular;
     const int first = r->columns - MEASURE_GEOMETRY, last = a->columns - 1;
@@ -147,7 +143,10 @@ static void white_variances(const measure_work *work, double variance[QUANTITIES
                                      [TILT_S] = first + MEASURE_TILT_S,
                                      [CENTRE_X] = first + MEASURE_CENTRE_X,
                                      [CENTRE_Y] = first + MEASURE_CENTRE_Y};
-    const double square_r = left_over(work, work->r_off, r), square_a = left_over(work, work->a_off, a);
+    const double square_r =
+        left_over(work, work->r_off, r) * (few ? measure_hanging_together(work, work->r_off) : 1.0);
+    const double square_a =
+        left_over(work, work->a_off, a) * (few ? measure_hanging_together(work, work->a_off) : 1.0);
     for (int q = 0; q < QUANTITIES; ++q)
         variance[q] = square_r * r->inverse[columns[q]][columns[q]];
     variance[F0] *= work->gain * work->gain;
@@ -164,7 +163,7 @@ static void variances(const measure_work *work, const turn_sums *turns, double v
                       double *covariance)
 {
     double white[QUANTITIES];
-    white_variances(work, white);
+    white_variances(work, turns->count < MANY_TURNS, white);
     for (int q = 0; q < QUANTITIES; ++q)
         variance[q] = turns->count < LEAST_TURNS ? NAN : white[q];
     *covariance = 0.0;
@@ -178,7 +177,8 @@ static void variances(const measure_work *work, const turn_sums *turns, double v
         draw(turns, length, found, &joint, BEAD, F0);
         for (int q = 0; q < QUANTITIES; ++q)
             variance[q] = fmax(variance[q], wider * found[q]);
-        *covariance = length == 1 ? wider * joint : *covariance;
+        /* Of very few turns it would be chance, by which errors of sums might vanish. */
+        *covariance = length == 1 && turns->count >= MANY_TURNS ? wider * joint : *covariance;
     }
 }
 
@@ -245,6 +245,19 @@ static double tilt_of(double w)
     return acos(fmin(1.0, fmax(0.0, (1.0 - w) / (1.0 + w)))) * 180.0 / FST_PI;
 }
 
+/* The variance that white noise gives the same sum. */
+static double white_sum(const measure_work *work, const double along[2])
+{
+    const measure_regression *fit = &work->radial;
+    const int tilt = fit->columns - MEASURE_GEOMETRY + MEASURE_TILT_C, columns[3] = {0, tilt, tilt + 1};
+    const double r0 = fit->coefficient[0], weights[3] = {1.0, r0 * along[0], r0 * along[1]};
+    double sum = 0.0;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            sum += weights[i] * weights[j] * fit->inverse[columns[i]][columns[j]];
+    return left_over(work, work->r_off, fit) * measure_hanging_together(work, work->r_off) * sum;
+}
+
 /* Tilt with its error, and the factor that lengths get for it.  Returns the relative error of lengths. */
 static double take_tilt(const measure_work *work, const turn_sums *turns, const double variance[QUANTITIES],
                         double *factor, double *of_r0, fst_measurement *measured)
@@ -277,7 +290,7 @@ static double take_tilt(const measure_work *work, const turn_sums *turns, const 
             turns->sum[i][R0] + r0 * (along[0] * turns->sum[i][TILT_C] + along[1] * turns->sum[i][TILT_S]);
         square += sum * sum;
     }
-    *of_r0 = square;
+    *of_r0 = turns->count < MANY_TURNS ? fmax(square, white_sum(work, along)) : square;
     return sigma;
 }
 
@@ -386,6 +399,9 @@ fst_status measure_find_errors(const measure_work *work, const measure_drive *dr
     variances(work, &turns, variance, &covariance);
     if (work->f0 > 0)
         add_hidden(work, variance);
+    /* Rates of cameras, as 239.76 and 240, are too near for a short film to choose between. */
+    if (drive->clock_set && turns.count < MANY_TURNS)
+        variance[BEAD] = variance[F0] = NAN;
     /* A drift too small to be seen is mostly a slope, which moves the rate by as much as chance does. */
     variance[BEAD] *= work->first > 0 ? 2.0 : 1.0;
     for (int q = 0; q < QUANTITIES; ++q)

@@ -355,6 +355,26 @@ int measure_line_dies(const measure_work *work, int k)
            line_between(work, k, work->count - third, work->count) < 0.5 * line_between(work, k, 0, third);
 }
 
+/* ---------------------------------------------------------------- what is left over */
+
+int measure_neighbours(const measure_work *work, size_t i)
+{
+    return work->t[i + 1] - work->t[i] < 1.5 / work->fps;
+}
+
+double measure_hanging_together(const measure_work *work, const double *off)
+{
+    double sum = 0.0, pairs = 0.0;
+    for (size_t i = 0; i + 1 < work->count; ++i)
+        if (measure_neighbours(work, i)) {
+            sum += off[i] * off[i + 1];
+            pairs += 1.0;
+        }
+    const double square = fst_dot(off, off, (int)work->count) / (double)work->count;
+    const double rho = pairs > 0 && square > 0 ? sum / pairs / square : 0.0;
+    return rho * sqrt(pairs) > 3.0 ? (1.0 + rho) / (1.0 - fmin(rho, 0.98)) : 1.0;
+}
+
 /* ---------------------------------------------------------------- the motion */
 
 /* Start: the centre of the circle, and the strongest line of the places as complex numbers. */

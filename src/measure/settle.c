@@ -59,7 +59,7 @@ static int drifting_angular_row(const measure_work *work, size_t i, double *row)
 
 /* How many standard deviations more than by chance the columns more take off of the squares (chi^2 as a normal
  * number, by Wilson and Hilferty). */
-static double drift_of(const measure_work *work, int (*row_of)(const measure_work *, size_t, double *),
+static double drift_of(measure_work *work, int (*row_of)(const measure_work *, size_t, double *),
                        const double *off, int columns, double small)
 {
     double row[MEASURE_MOST_COLUMNS];
@@ -72,13 +72,18 @@ static double drift_of(const measure_work *work, int (*row_of)(const measure_wor
     }
     measure_regression_solve(&fit);
     const double taken = fst_dot(fit.coefficient, fit.right, fit.columns), rows = (double)work->count;
-    const double noise = fmax((before - taken) / (rows - fit.columns), small * small);
+    for (size_t i = 0; i < work->count; ++i) {
+        (void)row_of(work, i, row);
+        work->scratch[i] = off[i] - measure_regression_value(&fit, row);
+    }
+    const double noise = fmax((before - taken) / (rows - fit.columns), small * small) *
+                         measure_hanging_together(work, work->scratch);
     const double freedom = fit.columns - columns, part = 2.0 / (9.0 * freedom);
     return (cbrt(taken / noise / freedom) - 1.0 + part) / sqrt(part);
 }
 
 /* How surely the part of the film that the work has drifts. */
-static double drift(const measure_work *work)
+static double drift(measure_work *work)
 {
     const double r0 = work->radial.coefficient[0];
     /* A harmonic in the place of another one beats with it, as slowly as a drift. */

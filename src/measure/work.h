@@ -84,6 +84,11 @@ int measure_stands(const measure_work *work, double frequency);
 /* The frequency at which a film of so many frames a second shows another one. */
 double measure_folded(double frequency, double fps);
 double measure_duration(const measure_work *work);
+/* Whether two rows are of neighbouring frames. */
+int measure_neighbours(const measure_work *work, size_t i);
+/* By how much residuals that hang together widen variances: 1 where they do not, (1 + rho)/(1 - rho) where each is
+ * rho of the one before. */
+double measure_hanging_together(const measure_work *work, const double *off);
 /* A row of the model of r, and of alpha (the first columns: 1, harmonics; then t). */
 int measure_radial_row(const measure_work *work, size_t i, double *row);
 int measure_angular_row(const measure_work *work, size_t i, double *row);
@@ -104,6 +109,7 @@ typedef struct measure_drive {
     int folded;        /* the line of r may be a folded one: drive, festoons and symmetry are not known */
     int standing;      /* festoons may look like the mean of r, or like a tilt */
     int bead_folded;   /* so may the bead's own rate be */
+    int clock_set;     /* the clock was corrected */
     int clock_follows; /* the file has no clock, and the drive gave it one */
 } measure_drive;
 

@@ -260,7 +260,11 @@ static void test_few_frames_a_second(void **state)
     assert_true(isnan(m.festoons) && warned(&m, "stand still"));
     fst_track_free(&track);
     film.fps = 240.0;
-    film.seconds = 1.5; /* five turns */
+    film.seconds = 1.5; /* five turns are enough, and three */
+    m = measured(&motion, &film, motion.drive, NAN, &track);
+    assert_as(&m, &motion, film.scale);
+    fst_track_free(&track);
+    film.seconds = 0.9; /* but not less */
     m = measured(&motion, &film, motion.drive, NAN, &track);
     assert_true(isfinite(m.mean_r) && isnan(m.mean_r_error) && isnan(m.bead_frequency_hz_error) &&
                 warned(&m, "turns"));
@@ -480,7 +484,8 @@ static void test_interruption(void **state)
 static void test_20_films(void **state)
 {
     (void)state;
-    check_coverage(2, 20);
+    check_coverage(2, 20, 0, 0);
+    check_coverage(2, 40, 3.0, 8.0);
 }
 
 static void test_60_coarse_films(void **state)

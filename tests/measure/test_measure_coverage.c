@@ -7,7 +7,13 @@
 static void test_500_films(void **state)
 {
     (void)state;
-    check_coverage(MOTIONS, 500);
+    check_coverage(MOTIONS, 500, 0, 0);
+}
+
+static void test_short_films(void **state)
+{
+    (void)state;
+    check_coverage(MOTIONS, 500, 3.0, 8.0);
 }
 
 static void test_coarse_films(void **state)
@@ -24,7 +30,8 @@ static void test_settling_films(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_500_films), cmocka_unit_test(test_coarse_films),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_500_films), cmocka_unit_test(test_short_films),
+                                       cmocka_unit_test(test_coarse_films),
                                        cmocka_unit_test(test_settling_films)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
