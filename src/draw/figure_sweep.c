@@ -180,16 +180,18 @@ static int choose_keys(const fst_grid *grid, int is_map, const char *keys[USUAL]
 }
 
 /* A map shows one key over two axes.  Unless it is asked for, an axis of few values makes a family of curves, but for keys
- * whose values are names, and where points are random. */
+ * whose values are names, as the first of several beads and of levitation is, and where points are random. */
 static int wants_map(const fst_grid *grid, const fst_sweep_figure *options, const fst_sweep_slice *slice)
 {
     if (slice->varied < 2)
         return 0;
     if (options->kind == FST_FIGURE_CURVES || options->kind == FST_FIGURE_MAP)
         return options->kind == FST_FIGURE_MAP;
+    const fst_row_kind rows = fst_grid_row_kind(grid);
     const int64_t fewest =
         slice->axes[0].count < slice->axes[1].count ? slice->axes[0].count : slice->axes[1].count;
-    return fewest > FEW || is_random(grid) || (options->keys[0] && fst_sweep_names_of(options->keys[0]));
+    return fewest > FEW || is_random(grid) || rows == FST_ROWS_OF_BEADS || rows == FST_ROWS_OF_LEVITATION ||
+           (options->keys[0] && fst_sweep_names_of(options->keys[0]));
 }
 
 static fst_status choose_quantities(const fst_grid *grid, const fst_sweep_figure *options,

@@ -191,7 +191,7 @@ class Beads(unittest.TestCase):
             found = [row.split(",")[axes] for row in rows.splitlines()[1:]]
             self.assertEqual(len(found), 2 ** axes)
             self.assertIn("apart", found)
-            script, curves = self.plot(*(("--key", "outcome") if axes == 2 else ()), name=name.name)
+            script, curves = self.plot(name=name.name)
             if axes == 2:
                 self.assertIn("Outcomes of several beads", script)
                 for outcome in set(found):
