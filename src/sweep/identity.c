@@ -336,7 +336,10 @@ fst_status fst_identity_of(const fst_identity_lines *lines, const char *path, co
     if (!shard)
         return FST_OK;
     char *behind;
-    identity->shard = strtoll(shard, &behind, 10) - 1;
+    const int64_t number = strtoll(shard, &behind, 10);
     identity->shards = *behind == '/' ? strtoll(behind + 1, NULL, 10) : 0;
-    return identity->shard >= 0 && identity->shard < identity->shards ? FST_OK : fail_damaged(path, error);
+    if (number < 1 || number > identity->shards)
+        return fail_damaged(path, error);
+    identity->shard = number - 1;
+    return FST_OK;
 }
