@@ -231,7 +231,7 @@ def over(
     options = options_of(lib.fst_default_figure_options())
     kept += set_options(options, {**given, "units": units}, "figures.over")
     options.kind = KINDS[kind] if kind in KINDS else lib.FST_FIGURE_COUNT
-    for i, word in enumerate(words[:lib.FST_FIGURE_KEYS] if kind != "path" else []):
+    for i, word in enumerate(words[:lib.FST_FIGURE_KEYS]):
         kept.append(ffi.new("char[]", word.encode()))
         options.keys[i] = kept[-1]
     names = [ffi.new("char[]", path_bytes(file)) for file in files]

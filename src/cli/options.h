@@ -29,7 +29,7 @@ typedef struct arguments {
     fst_field_map **map;     /* the map of the scene, which is freed after the command */
 } arguments;
 
-/* Read words[0..count) by `table`.  A value may begin with a minus.  Only --set, --over and --given may be
+/* Read words[0..count) by `table`.  A value may begin with a minus.  Only --over, --given and options of a KEY=VALUE may be
  * repeated.  FST_BAD_INPUT: unknown option (the sentence names the nearest), missing or superfluous value, too many
  * operands. */
 fst_status read_arguments(const option *table, int most_operands, int count, char **words, arguments *given,

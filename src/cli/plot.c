@@ -184,13 +184,9 @@ static fst_status plot_sweep(const arguments *given, const char *path, const cha
 {
     fst_sweep_figure figure;
     char words[KEYS_SIZE];
-    const char *kind = option_value(given, "kind");
     fst_status status = refuse_others(given, "kind|key|at|units|points", "a sweep", error);
     if (status == FST_OK)
         status = read_sweep_figure(given, &figure, words, error);
-    if (status == FST_OK && kind && figure.kind != FST_FIGURE_CURVES && figure.kind != FST_FIGURE_MAP)
-        status =
-            fail(error, FST_BAD_INPUT, "--kind", "%s is of trajectories; a sweep has curves and map", kind);
     if (status == FST_OK)
         status = fst_figure_sweep(path, &figure, to, error);
     if (status == FST_OK)
@@ -242,16 +238,18 @@ static fst_status plot_beads(const arguments *given, const fst_figure_options *f
 static fst_status plot_several(const arguments *given, const char *to, fst_error *error)
 {
     fst_sweep_figure sweeps;
-    fst_figure_options trajectories;
-    char words[2][KEYS_SIZE];
+    fst_figure_options trajectories = fst_default_figure_options();
+    char words[KEYS_SIZE];
     fst_status status =
         refuse_others(given, "kind|key|at|observable|units|frame|from|to|zoom", "several files", error);
     if (status == FST_OK)
-        status = read_sweep_figure(given, &sweeps, words[0], error);
-    if (status == FST_OK)
+        status = read_sweep_figure(given, &sweeps, words, error);
+    if (status == FST_OK && sweeps.kind != FST_FIGURE_CURVES && sweeps.kind != FST_FIGURE_MAP)
         status = read_figure(given, &trajectories, error);
-    if (status == FST_OK && option_value(given, "kind") && trajectories.kind != FST_FIGURE_PATH)
-        status = read_columns(given, &trajectories, words[1], error);
+    trajectories.kind = sweeps.kind;
+    trajectories.units = sweeps.units;
+    for (int i = 0; i < FST_FIGURE_KEYS; ++i)
+        trajectories.keys[i] = sweeps.keys[i];
     if (status == FST_OK)
         status = fst_figure_over(given->operands, given->operand_count, &trajectories, &sweeps,
                                  option_value(given, "observable"), to, error);

@@ -29,7 +29,7 @@ static fst_status read_options(const arguments *given, fst_film_track_options *t
     return read_values(given, rows, sizeof rows / sizeof *rows, error);
 }
 
-/* The edge that was taken for the plate's, and those that were not. */
+/* Print the edge that was taken for the plate's, then the others, so that a wrong choice is seen. */
 static void print_edges(const fst_film_track_report *r, FILE *out)
 {
     (void)fprintf(out, "plate       %.1f x %.1f pixels; its edge is within %.2f pixels of an ellipse\n",

@@ -16,6 +16,7 @@ typedef struct wanted {
     fst_sweep_figure sweeps;
     int used[FST_AXIS_LIMIT]; /* by place in sweeps.at: whether a sweep varies that key */
     const char *observable;   /* of branches; NULL: chosen */
+    int branches;             /* how many there are */
 } wanted;
 
 /* One file. */
@@ -190,10 +191,9 @@ static fst_status draw(const source *sources, int count, const char *out, fst_er
 /* Beside a branch a sweep shows the branch's observable, so that they have something in common. */
 static void match_keys(const char *const *paths, int count, wanted *w)
 {
-    int branches = 0;
     for (int i = 0; i < count; ++i)
-        branches += is_branch(paths[i]);
-    if (branches == 0 || branches == count)
+        w->branches += is_branch(paths[i]);
+    if (w->branches == 0 || w->branches == count)
         return;
     if (!w->observable)
         w->observable = w->sweeps.keys[0] ? w->sweeps.keys[0] : "mean_r";
@@ -214,7 +214,11 @@ fst_status fst_figure_over(const char *const *paths, int count, const fst_figure
     if (sweeps)
         w.sweeps = *sweeps;
     match_keys(paths, count, &w);
-    fst_status status = FST_OK;
+    fst_status status =
+        observable && w.branches == 0
+            ? fst_fail(error, FST_BAD_INPUT, "fst_figure_branch.observable",
+                       "\"%.60s\" is asked for of branches, and none of these is one", observable)
+            : FST_OK;
     for (int i = 0; i < count && status == FST_OK; ++i) {
         sources[i].path = paths[i];
         status = take(&sources[i], &w, error);

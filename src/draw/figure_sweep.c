@@ -221,6 +221,10 @@ static fst_status read_sweep(const char *path, const fst_sweep_figure *options, 
     const char *keys[FST_SWEEP_FIGURE_KEYS + USUAL];
     fst_grid *grid;
     *s = (shown_sweep){.count = 0};
+    if (options->kind != FST_FIGURE_PATH && options->kind != FST_FIGURE_CURVES &&
+        options->kind != FST_FIGURE_MAP)
+        return fst_fail(error, FST_BAD_INPUT, "fst_sweep_figure.kind",
+                        "this kind of figure is of trajectories; a sweep has curves and map");
     fst_status status = fst_sweep_read_grid(path, &grid, error);
     if (status != FST_OK)
         return status;

@@ -139,8 +139,8 @@ static double scale_of_drive(const fst_grid *grid, const fst_sweep_axis *axis)
     return in_hertz ? factor : 0.0;
 }
 
-/* Choose the points of a slice that are drawn, not more than MOST_POINTS; of a refined sweep, of those that were computed.
- * Returns one of how many is drawn; 0: no memory. */
+/* Choose which points of a slice are drawn: at most MOST_POINTS, because a figure shows no more; of a refined sweep only
+ * those that were computed.  Returns n where each n-th point is drawn; 0: no memory. */
 static size_t choose_points(drawing *d, const fst_sweep_slice *slice)
 {
     const fst_grid *grid = d->table->grid;

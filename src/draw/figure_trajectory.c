@@ -7,6 +7,8 @@
 
 enum { OPTIONS_COOKIE = 0x46494721 };
 
+#define NO_COLUMNS "only figures of time, sections and ramps show columns of choice"
+
 fst_figure_options fst_default_figure_options(void)
 {
     return (fst_figure_options){.cookie = OPTIONS_COOKIE,
@@ -22,6 +24,8 @@ static fst_status chart_path(const fst_table *table, const fst_figure_options *o
                              fst_error *error)
 {
     fst_path_picture path;
+    if (options->keys[0])
+        return fst_fail(error, FST_BAD_INPUT, "fst_figure_options.keys", NO_COLUMNS);
     fst_status status = fst_path_picture_of(table, options, &path, error);
     if (status != FST_OK)
         return status;
@@ -108,8 +112,7 @@ fst_status fst_figure_trajectory(const fst_table *table, const char *out, const 
     const int chooses = options->kind == FST_FIGURE_TIME || options->kind == FST_FIGURE_SECTION ||
                         options->kind == FST_FIGURE_RAMP;
     if (options->keys[0] && !chooses)
-        return fst_fail(error, FST_BAD_INPUT, "fst_figure_options.keys",
-                        "only figures of time, sections and ramps show columns of choice");
+        return fst_fail(error, FST_BAD_INPUT, "fst_figure_options.keys", NO_COLUMNS);
     switch (options->kind) {
     case FST_FIGURE_PATH:
         return fst_figure_path(table, out, options, error);

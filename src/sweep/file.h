@@ -49,7 +49,8 @@ typedef struct fst_lost_points {
     int range_count; /* further ranges are only counted */
 } fst_lost_points;
 
-/* Add points behind those that are there; name them: "3, 7-12 and 5 more". */
+/* Add the points from `first` to `last`, which lie behind those added before; and write which there are, as "3, 7-12 and
+ * 5 more". */
 void fst_lost_points_add(fst_lost_points *lost, int64_t first, int64_t last);
 void fst_lost_points_name(const fst_lost_points *lost, char *text, size_t size);
 

@@ -1,6 +1,7 @@
 /* identity.c - writing, reading and comparing the record of what a database is a sweep of. */
 #include "sweep/identity.h"
 
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -338,7 +339,7 @@ fst_status fst_identity_of(const fst_identity_lines *lines, const char *path, co
     char *behind;
     const int64_t number = strtoll(shard, &behind, 10);
     identity->shards = *behind == '/' ? strtoll(behind + 1, NULL, 10) : 0;
-    if (number < 1 || number > identity->shards)
+    if (number < 1 || number > identity->shards || identity->shards > INT_MAX) /* as of fst_sweep_options */
         return fail_damaged(path, error);
     identity->shard = number - 1;
     return FST_OK;

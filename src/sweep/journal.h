@@ -62,8 +62,8 @@ fst_status fst_journal_commit(fst_journal *journal, fst_error *error);
 /* The number of rows. */
 fst_status fst_journal_count(fst_journal *journal, int64_t *rows, fst_error *error);
 
-/* Find at most `room` points of the sweep, or of its shard, without a row, beginning at *next. *next moves behind the last point looked at; it
- * is the number of points when all were looked at. */
+/* Find at most `room` points of the sweep, or of its shard, without a row, beginning at *next.  *next moves behind the
+ * last point looked at; it is the number of points when all were looked at. */
 fst_status fst_journal_missing(fst_journal *journal, int64_t *next, int64_t *points, int room, int *found,
                                fst_error *error);
 

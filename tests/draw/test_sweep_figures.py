@@ -385,9 +385,15 @@ class Over(Figures):
         self.assertIn("path, time, section and ramp",
                       self.refused("plot", self.path("t.csv"), self.path("t.csv"), "--kind", "local-n", *out))
         self.refused("plot", *[self.path("f.db")] * 9, *out)
+        for name, options, told in (("f.db", ("--kind", "time"), "is of trajectories"), ("f.db", ("--observable", "min_r"), "branches"),
+                                    ("t.csv", ("--key", "r"), "time, sections and ramps"), ("t.csv", ("--observable", "min_r"), "branches"),
+                                    ("t.csv", ("--at", "model.kappa=1"), "no sweep of these"), ("f.db", ("--kind", "map"), "two axes"),
+                                    ("t.csv", ("--kind", "curves"), "path, time, section and ramp")):
+            self.assertIn(told, self.refused("plot", *[self.path(name)] * 2, *options, *out), (name, options))
         self.assertFalse(os.path.exists(self.path("no.svg")))
         self.assertIn("no sweep of these varies", self.refused("plot", *[self.path("f.db")] * 2, "--at", "start.r=1", *out))
-        self.over("f.db", "two.db", "--at", "model.kappa=1.5")
+        for kind in ((), ("--kind", "curves")):
+            self.over("f.db", "two.db", "--at", "model.kappa=1.5", *kind)
 
 
 class ManyPoints(Figures):

@@ -110,8 +110,22 @@ static inline void cover_film(coverage *c, int number, const made_motion *motion
     fst_track_free(&track);
 }
 
-/* Measure so many films of the first `kinds` motions.  The bounds are what chance makes of 68 and 95 in 100,
- * twice as wide upwards, because an error may be a bit too large but not too small. */
+/* Of each number at least `least` films have an error, and the truth lies within it as often as chance makes of 68 and 95
+ * in 100, but for `below` standard deviations; six are let pass upwards, because an error may be a bit too large but not
+ * too small. */
+static inline void judge_coverage(const coverage *c, double below, double least)
+{
+    for (int q = 0; q < COVERED; ++q) {
+        const double known = c->known[q], one = c->within[q][0] / known, two = c->within[q][1] / known;
+        const double scatter = sqrt(0.683 * 0.317 / known);
+        print_message("%-22s of %3.0f films, within one error: %.3f, two: %.3f, farthest %.1f\n",
+                      covered_names[q], known, one, two, c->farthest[q]);
+        assert_true(known >= least && one > 0.683 - below * scatter && one < 0.683 + 6.0 * scatter);
+        assert_true(two > 0.954 - below * sqrt(0.954 * 0.046 / known) && c->farthest[q] < 5.0);
+    }
+}
+
+/* Measure so many films of the first `kinds` motions. */
 static inline void check_coverage(int kinds, int films, double least_turns, double most_turns)
 {
     static const double longest = 14.0;
@@ -129,15 +143,7 @@ static inline void check_coverage(int kinds, int films, double least_turns, doub
         }
         cover_film(&c, i, &motions[i % kinds], &film, has_drive);
     }
-    for (int q = 0; q < COVERED; ++q) {
-        const double known = c.known[q], one = c.within[q][0] / known, two = c.within[q][1] / known;
-        const double scatter = sqrt(0.683 * 0.317 / known);
-        print_message("%-22s within one error: %.3f, two: %.3f, farthest %.1f\n", covered_names[q], one, two,
-                      c.farthest[q]);
-        assert_true(one > 0.683 - 3.0 * scatter && one < 0.683 + 6.0 * scatter);
-        assert_true(two > 0.954 - 3.0 * sqrt(0.954 * 0.046 / known));
-        assert_true(c.farthest[q] < 5.0 && known >= (most_turns > 0 ? 0.9 : 1.0) * films);
-    }
+    judge_coverage(&c, 3.0, (most_turns > 0 ? 0.9 : 1.0) * films);
     for (int i = 0; i < kinds; ++i)
         made_motion_free(&motions[i]);
 }
@@ -172,14 +178,7 @@ static inline void check_settling_coverage(int kinds, int films)
         made_motion_free(&motion);
         made_motion_free(&settled[kind]);
     }
-    for (int q = 0; q < COVERED; ++q) {
-        const double known = c.known[q], one = c.within[q][0] / known, two = c.within[q][1] / known;
-        const double scatter = sqrt(0.683 * 0.317 / known);
-        print_message("%-22s of %3.0f films, within one error: %.3f, two: %.3f, farthest %.1f\n",
-                      covered_names[q], known, one, two, c.farthest[q]);
-        assert_true(known > 0.85 * films && one > 0.683 - 3.5 * scatter && one < 0.683 + 6.0 * scatter);
-        assert_true(two > 0.954 - 3.5 * sqrt(0.954 * 0.046 / known) && c.farthest[q] < 5.0);
-    }
+    judge_coverage(&c, 3.5, floor(0.85 * films) + 1.0);
 }
 
 /* What has an error in films of few frames a second.  What the rate hides has none, and what it may hide a wide one. */

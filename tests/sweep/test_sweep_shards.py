@@ -142,7 +142,7 @@ class Merging(Shards):
         self.assertIn("cannot read", self.not_merged(one, self.path("none.db")))
         self.assertIn("--shard I/N", self.not_merged())
         self.assertIn("-o ALL.db", self.refused("merge", one))
-        for forged in ("3/2", "1", "1/0", "-9223372036854775808/2"):
+        for forged in ("3/2", "1", "1/0", "-9223372036854775808/2", "5/9223372036854775807"):
             change(one, ("UPDATE festoon SET value = ? WHERE key = 'shard'", (forged,)))
             self.assertIn("damaged", self.not_merged(one), forged)
 
