@@ -56,6 +56,7 @@ typedef struct fst_track_options {
     double fps;             /* frames a second, instead of the file's clock; NAN: that clock */
     double scale;           /* metres that one unit of length of the file is; NAN: as the file says */
     const char *scale_unit; /* the unit in which the track is wanted then ("mm"); NULL: "mm" */
+    double from, to;        /* the first and the last frame that are taken, by the file's numbers; NAN: all */
 } fst_track_options;
 FST_API fst_track_options fst_default_track_options(void);
 

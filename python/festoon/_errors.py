@@ -93,6 +93,8 @@ CALLS = {
     "fst_branch_write()": "Branch.save()",
     "fst_run_json()": "Run.to_dict()",
     "fst_track_options.scale": "scale",
+    "fst_track_options.from": "frames",
+    "fst_track_options.to": "frames",
     "fst_measure_options.drive": "drive",
     "fst_sweep_figure.at": "at={KEY: VALUE}",
 }

@@ -170,6 +170,7 @@ def read_track(
     name: Optional[str] = None,
     fps: Union[None, float, str] = None,
     scale: Union[None, float, str] = None,
+    frames: Tuple[Optional[int], Optional[int]] = (None, None),
 ) -> Track:
     """Read the track of a bead in any of the formats of `festoon measure`; `scale` is the length of one unit.
 
@@ -185,6 +186,8 @@ def read_track(
         Frames a second, Hz.
     scale
         The length of one unit of the file, m, or a text with a unit.
+    frames
+        The first and the last frame that are taken, by the file's numbers; None: from its first, to its last.
 
     Returns
     -------
@@ -210,6 +213,9 @@ def read_track(
         options.fps = quantity(fps, lib.FST_UNIT_FREQUENCY, "fps")
     if scale is not None:
         options.scale = quantity(scale, lib.FST_UNIT_LENGTH, "scale")
+    for field, frame in zip(("from", "to"), frames):
+        if frame is not None:
+            setattr(options, field, float(frame))
     track = ffi.gc(ffi.new("fst_track *"), lib.fst_track_free)
     understood = ffi.new("char **")
     with Watch(None) as watch:

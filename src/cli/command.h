@@ -102,7 +102,7 @@ typedef struct value_option {
     double *value;
     double least, greatest; /* of whole numbers */
 } value_option;
-enum { VALUE_TIME = -1 /* as cameras write it */, VALUE_WHOLE = -2 };
+enum { VALUE_TIME = -1 /* as cameras write it */, VALUE_WHOLE = -2, MOST_FRAMES = 1000000000 };
 fst_status read_values(const arguments *given, const value_option *rows, size_t count, fst_error *error);
 
 /* Whether a file's name has this ending, and more before it. */

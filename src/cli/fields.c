@@ -60,6 +60,7 @@ static const struct {
     {"fst_locked_find()", "festoon locked"},     {"fst_sweep_export()", "festoon export"},
     {"fst_sweep()", "festoon sweep -o FILE.db"}, {"fst_branch_write()", "festoon branch -o FILE.json"},
     {"fst_run_json()", "festoon run --json"},    {"fst_track_options.scale", "--scale"},
+    {"fst_track_options.from", "--from"},        {"fst_track_options.to", "--to"},
     {"fst_measure_options.drive", "--drive"},    {"fst_sweep_figure.at", "--at KEY=VALUE"},
 };
 

@@ -20,6 +20,8 @@ static const option options[] = {
     {"exposure", '\0', "T[+-S]",
      "of a track: how long a frame was exposed, \"2 ms\", or \"2+-0.5 ms\" to seek it too"},
     {"fps", '\0', "F", "of a track: frames a second, instead of the file's clock"},
+    {"from", '\0', "FRAME", "of a track: the first frame that is taken, by its own numbers"},
+    {"to", '\0', "FRAME", "of a track: the last one"},
     {"scale", '\0', "0.123mm", "of a track: the length of one unit of the file"},
     {NULL, '\0', NULL, NULL},
 };
@@ -261,6 +263,8 @@ static fst_status read_track_wishes(const arguments *given, fst_fit_options *how
     const char *exposure = option_value(given, "exposure");
     const value_option rows[] = {{"drive", FST_UNIT_FREQUENCY, &how->drive, 0, 0},
                                  {"fps", FST_UNIT_NUMBER, &file->fps, 0, 0},
+                                 {"from", VALUE_WHOLE, &file->from, 0, MOST_FRAMES},
+                                 {"to", VALUE_WHOLE, &file->to, 0, MOST_FRAMES},
                                  {"scale", FST_UNIT_LENGTH, &file->scale, 0, 0}};
     const fst_status status = exposure ? read_exposure(exposure, how, error) : FST_OK;
     return status == FST_OK ? read_values(given, rows, sizeof rows / sizeof *rows, error) : status;

@@ -15,6 +15,8 @@ static const option options[] = {
      "lay the path of this scene, at the track's drive, over the track in the figure"},
     {"set", '\0', "KEY=VALUE", "override one key of that scene (again for more keys)"},
     {"fps", '\0', "F", "frames a second, instead of the file's clock"},
+    {"from", '\0', "FRAME", "the first frame that is taken, by the track's own numbers"},
+    {"to", '\0', "FRAME", "the last one"},
     {"scale", '\0', "0.123mm", "the length of one unit of the file (of a pixel, mostly)"},
     {"format", '\0', "NAME", "the file's format, instead of what its header says"},
     {"track", '\0', "NAME", "which track of several (otherwise the longest)"},
@@ -60,6 +62,8 @@ static fst_status read_options(const arguments *given, fst_track_options *how, f
     how->format = option_value(given, "format");
     how->name = option_value(given, "track");
     const value_option rows[] = {{"fps", FST_UNIT_NUMBER, &how->fps, 0, 0},
+                                 {"from", VALUE_WHOLE, &how->from, 0, MOST_FRAMES},
+                                 {"to", VALUE_WHOLE, &how->to, 0, MOST_FRAMES},
                                  {"exposure", VALUE_TIME, &what->exposure, 0, 0}};
     fst_status status = read_values(given, rows, sizeof rows / sizeof *rows, error);
     if (status == FST_OK && scale)

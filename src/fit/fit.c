@@ -75,6 +75,10 @@ void fit_report_value(const fit_problem *p, const fit_estimate *e, int i, double
     out->error = deviation < 1.0 || key->scale != 0.0 ? deviation * fit_space_slope(&p->space, i, q) : NAN;
 }
 
+/* Where chi^2 is no parabola, one standard deviation is what its rise to 1, or half of what its rise to 4, says: whichever
+ * is more.  Where these agree with the curvature within a fifth, that is taken, for it has no noise. */
+#define NO_PARABOLA 1.2
+
 /* Value, error, interval of a parameter; *better where the minimum turned out to be none. */
 static fst_status report_parameter(fit_problem *p, const fit_estimate *e, int i, fst_fit *fit, int *better,
                                    double u_better[FIT_MOST], fst_error *error)
@@ -84,13 +88,22 @@ static fst_status report_parameter(fit_problem *p, const fit_estimate *e, int i,
     const double q = fit_own_value(p, e, i);
     fit_report_value(p, e, i, fit->error_scale * fit_deviation(p, e, i), out);
     const double rise = fit->error_scale * fit->error_scale;
+    double widest = 0.0;
     for (int side = -1; side <= 1; side += 2) {
-        double end;
-        const fst_status status = fit_profile(p, e, i, side, rise, &end, better, u_better, error);
+        double end, far;
+        fst_status status = fit_profile(p, e, i, side, rise, &end, better, u_better, error);
+        if (status == FST_OK)
+            status = fit_profile(p, e, i, side, 4.0 * rise, &far, better, u_better, error);
         if (status != FST_OK)
             return status;
         const double at = fit_space_at(&p->space, i, q + end);
+        const double twice = fit_space_at(&p->space, i, q + far) - out->value;
         out->interval[side > 0] = at >= key->info->least && at <= key->info->greatest ? at : NAN;
+        widest = fmax(widest, fmax(fabs(at - out->value), 0.5 * fabs(twice)));
+    }
+    if (widest > NO_PARABOLA * out->error) {
+        fit->widened = fmax(fit->widened, widest / out->error);
+        out->error = widest;
     }
     return FST_OK;
 }
@@ -114,6 +127,12 @@ static fst_status report_parameters(fit_problem *p, fit_estimate *e, fst_fit *fi
         if (status != FST_OK)
             return status;
     }
+    if (fit->widened > 1.0 && fit_remark(fit, error,
+                                         "chi^2 is no parabola within two standard deviations: errors are "
+                                         "those by which it has risen to 4, halved, "
+                                         "and up to %.3g times those of its curvature; quote the intervals",
+                                         fit->widened) != FST_OK)
+        return FST_NO_MEMORY;
     for (int i = 0; i < p->space.count; ++i) {
         const fst_status status = say_interval(fit, &fit->parameters[i], error);
         if (status != FST_OK)
@@ -140,7 +159,7 @@ fst_status fit_report_kappa_gamma2(const fit_problem *p, const fit_estimate *e, 
         slope[k] = log(there / fit->kappa_gamma2) / step;
     }
     fit->kappa_gamma2_error =
-        fit->kappa_gamma2 * fit->error_scale * sqrt(fit_product(&e->covariance, slope, slope));
+        fit->kappa_gamma2 * fit->error_scale * fit->widened * sqrt(fit_product(&e->covariance, slope, slope));
     return status;
 }
 
@@ -174,6 +193,7 @@ static fst_status report_fit(fit_problem *p, const fit_estimate *e, int too_many
     fit->points = fit_used(p);
     fit->dof = fit->points - k;
     fit->error_scale = fit_error_scale(e->chi2, dof);
+    fit->widened = 1.0;
     fit->aicc = fit_aicc(e->chi2, fit->points, k);
     if (too_many &&
         fit_remark(fit, error,

@@ -399,7 +399,7 @@ static fst_status report(film_fit *f, const fit_estimate *e, double left, int re
     p.space = f->space;
     fit->count = f->space.count;
     fit->free_count = f->space.free_count;
-    fit->error_scale = 1.0;
+    fit->error_scale = fit->widened = 1.0;
     fit->points = 2 * (f->frames - rejected);
     fit->dof = fit->points - fit->free_count;
     fit->chi2 = fit->points - f->space.count - f->nuisances; /* the noise is measured by it */

@@ -294,6 +294,23 @@ static char *tell(const choice *c, const fst_track *track)
     return fst_print_end(&printed);
 }
 
+/* The frames that are asked for, into the track. */
+static fst_status take_frames(const choice *c, const track_spot *spots, size_t count, fst_track *track,
+                              fst_error *error)
+{
+    const double from = c->options->from, to = c->options->to;
+    fst_status status = FST_OK;
+    for (size_t i = 0; i < count && status == FST_OK; ++i)
+        if (!(spots[i].frame < from || spots[i].frame > to))
+            status = fst_track_append(track, (int64_t)spots[i].frame, spots[i].t, spots[i].x * c->scale,
+                                      spots[i].y * (c->raw->y_down ? -c->scale : c->scale), error);
+    if (status == FST_OK && track->rows < 2)
+        status = fst_fail(error, FST_BAD_INPUT, from >= 0 ? "fst_track_options.from" : "fst_track_options.to",
+                          "the track has frames %.0f to %.0f: of those asked for it has %s", spots[0].frame,
+                          spots[count - 1].frame, track->rows ? "one" : "none");
+    return status;
+}
+
 fst_status track_choose(const track_raw *raw, const char *path, const fst_track_options *options,
                         fst_track *track, char **understood, fst_error *error)
 {
@@ -310,9 +327,8 @@ fst_status track_choose(const track_raw *raw, const char *path, const fst_track_
         status = fst_fail(error, FST_BAD_INPUT, path, "a track of one frame: nothing can be measured of it");
     if (status == FST_OK)
         status = set_clock(&c, spots, count, track, error);
-    for (size_t i = 0; i < count && status == FST_OK; ++i)
-        status = fst_track_append(track, (int64_t)spots[i].frame, spots[i].t, spots[i].x * c.scale,
-                                  spots[i].y * (raw->y_down ? -c.scale : c.scale), error);
+    if (status == FST_OK)
+        status = take_frames(&c, spots, count, track, error);
     free(spots);
     if (status == FST_OK && understood && !(*understood = tell(&c, track)))
         status = fst_fail(error, FST_NO_MEMORY, path, "no memory for what was understood of this track");

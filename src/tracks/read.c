@@ -45,7 +45,7 @@ static const struct {
 
 fst_track_options fst_default_track_options(void)
 {
-    return (fst_track_options){.cookie = OPTIONS_COOKIE, .fps = NAN, .scale = NAN};
+    return (fst_track_options){.cookie = OPTIONS_COOKIE, .fps = NAN, .scale = NAN, .from = NAN, .to = NAN};
 }
 
 const char *fst_track_formats(void)

@@ -446,6 +446,26 @@ static void test_locked(void **state)
     }
 }
 
+/* Of films of locked beads, with every fault that a film may have, none has festoons. */
+static void test_50_locked_films(void **state)
+{
+    (void)state;
+    made_motion motion = motion_at(3.0, 15.0);
+    uint64_t chance = 20260104;
+    for (int i = 0; i < 50; ++i) {
+        int has_drive;
+        const made_film film = random_film(&chance, 14.0, &has_drive);
+        fst_track track;
+        const fst_measurement m =
+            measured(&motion, &film, has_drive ? (film.mirrored ? -motion.drive : motion.drive) : NAN,
+                     film.exposure > 0 ? film.exposure : NAN, &track);
+        if (!isnan(m.festoons) || !isnan(m.festoons_error))
+            fail_msg("film %d of a locked bead has %g festoons", i, m.festoons);
+        fst_track_free(&track);
+    }
+    made_motion_free(&motion);
+}
+
 static fst_status refuse(void *user, double fraction, const char *what, fst_error *error)
 {
     double *last = user;
@@ -508,6 +528,7 @@ int main(void)
         cmocka_unit_test(test_tilt),
         cmocka_unit_test(test_faults),
         cmocka_unit_test(test_locked),
+        cmocka_unit_test(test_50_locked_films),
         cmocka_unit_test(test_interruption),
         cmocka_unit_test(test_20_films),
         cmocka_unit_test(test_60_coarse_films),

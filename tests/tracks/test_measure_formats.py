@@ -120,6 +120,35 @@ class Formats(Measure):
         self.assertIn("every 2 frames", said)
         self.assertEqual(found["lost"], 0)
         self.assertAlmostEqual(found["fps"], 120, delta=0.01)
+        # The camera's rate, given, is that of all frames, whatever the track has of them: no rate changes.
+        whole, _ = self.measured(tracks.own(self.ROWS))
+        for rows in (lines[1::2], [lines[1 + i] for i in range(0, len(self.ROWS), 2) if not 100 < i < 140]):
+            found, _ = self.measured("\n".join(lines[:1] + rows) + "\n", "--fps", "240")
+            for key in ("bead_frequency_hz", "drive_from_track_hz"):
+                self.assertAlmostEqual(found[key], whole[key], delta=3 * found[key + "_error"])
+            self.assertAlmostEqual(found["fps"], 120, delta=0.01)
+
+    def test_a_gap_counts_its_frames(self):
+        """Rows that are missing are lost frames, as those whose cells are empty, with a clock or without."""
+        lines = tracks.own(self.ROWS).splitlines()
+        for gap in (1, 2, 7):
+            for clock in (True, False):
+                rows = lines[:200] + lines[200 + gap:]
+                text = "\n".join(rows if clock else [",".join(row.split(",")[::2] + row.split(",")[3:]) for row in rows]) + "\n"
+                found, _ = self.measured(text, *(() if clock else ("--fps", "240")))
+                self.assertEqual((found["lost"], found["frames"]), (gap, len(self.ROWS)), (gap, clock))
+
+    def test_a_range_of_frames(self):
+        """--from and --to take what an excerpt of the file has."""
+        lines = tracks.own(self.ROWS).splitlines()
+        found, said = self.measured(tracks.own(self.ROWS), "--from", "101", "--to", "780")
+        cut, _ = self.measured("\n".join(lines[:1] + lines[102:782]) + "\n")
+        self.assertIn("in frames 101 to 780", said)
+        self.assertEqual(found["frames"], 680)
+        for key, value in cut.items():
+            if isinstance(value, float):
+                self.assertAlmostEqual(found[key], value, delta=1e-8 * abs(value), msg=key)
+        self.assertEqual(self.measured(tracks.own(self.ROWS), "--to", "780")[0]["frames"], 781)
 
     def test_a_scale_of_the_file_that_is_replaced_is_told(self):
         _, said = self.measured(tracks.own(self.ROWS, unit="mm"), "--scale", "2mm")
@@ -164,6 +193,9 @@ class BadFiles(Measure):
                                (("--scale", "-1mm"), "--scale"), (("--format", "traker"), "tracker"),
                                (("--drive", "0Hz"), "--drive"), (("--drive", "10.7 furlongs"), "--drive"),
                                (("--exposure", "2"), "--exposure"), (("--exposure", "2s"), "--exposure"),
+                               (("--from", "240"), "--from: the track has frames 0 to 239: of those asked for it has none"),
+                               (("--to", "0"), "--to: the track has frames 0 to 239: of those asked for it has one"),
+                               (("--from", "2", "--to", "1"), "none"), (("--from", "-1"), "--from"), (("--to", "1.5"), "--to"),
                                (("--track", "b"), "no track")]:
             with self.subTest(options=options):
                 self.assertIn(words, self.refused(good, *options))
