@@ -130,7 +130,8 @@ typedef struct fst_fit {
     int points, dof;                         /* numbers that were fitted; fewer by the free parameters */
     double error_scale; /* all errors were multiplied by it: 1, or the root of chi2/dof where that is too great
                            for chance */
-    double widened;     /* 1; or, where chi2 is no parabola, by how much the error of the parameter of which that is most
+    double
+        widened; /* 1; or, where chi2 is no parabola, by how much the error of the parameter of which that is most
                            true exceeds the curvature's: kappa_gamma2_error was multiplied by it */
     double aicc;
     fst_fit_outlier *outliers;
