@@ -19,6 +19,7 @@ static const option options[] = {
     {"tolerance", '\0', "T",
      "tolerance of the integration; that of Newton's method and of special points follows it (1e-12)"},
     {"step", '\0', "S", "greatest step along the branch, scaled (0.5)"},
+    QUIET_OPTION,
     {NULL, '\0', NULL, NULL},
 };
 

@@ -45,6 +45,12 @@ const command *find_command(const char *name);
         "json", '\0', NULL, "one JSON document on standard output instead of text"                             \
     }
 
+/* Of every command that may take minutes: what shows progress obeys it (program.c). */
+#define QUIET_OPTION                                                                                           \
+    {                                                                                                          \
+        "quiet", '\0', NULL, "no progress on standard error"                                                   \
+    }
+
 #define UNITS_OPTION                                                                                           \
     {                                                                                                          \
         "units", '\0', FST_WORDS(FST_SHOWN), FST_DOCS(FST_SHOWN)                                               \

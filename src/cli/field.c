@@ -22,6 +22,7 @@ static const option options[] = {
     {"map", '\0', FST_WORDS(FST_FIELDS),
      "what the map shows: |B| (the default), a component of B, or the force or the load of a bead"},
     UNITS_OPTION,
+    QUIET_OPTION,
     {NULL, '\0', NULL, NULL},
 };
 

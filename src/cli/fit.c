@@ -23,6 +23,7 @@ static const option options[] = {
     {"from", '\0', "FRAME", "of a track: the first frame that is taken, by its own numbers"},
     {"to", '\0', "FRAME", "of a track: the last one"},
     {"scale", '\0', "0.123mm", "of a track: the length of one unit of the file"},
+    QUIET_OPTION,
     {NULL, '\0', NULL, NULL},
 };
 

@@ -6,6 +6,7 @@
 static const option options[] = {
     SCENE_OPTIONS,
     JSON_OPTION,
+    QUIET_OPTION,
     {NULL, '\0', NULL, NULL},
 };
 

@@ -21,6 +21,7 @@ static const option options[] = {
     {"format", '\0', "NAME", "the file's format, instead of what its header says"},
     {"track", '\0', "NAME", "which track of several (otherwise the longest)"},
     {"exposure", '\0', "2ms", "how long a frame was exposed: what that blurs is corrected"},
+    QUIET_OPTION,
     {NULL, '\0', NULL, NULL},
 };
 

@@ -7,6 +7,7 @@
 static const option options[] = {
     {"output", 'o', "FILE.db", "the new database"},
     JSON_OPTION,
+    QUIET_OPTION,
     {NULL, '\0', NULL, NULL},
 };
 

@@ -17,6 +17,7 @@ static const option options[] = {
     {"colour", '\0', "COLUMN", "the column that colours the trail of one bead: slip, n_z, angle, ..."},
     CAMERA_OPTIONS,
     UNITS_OPTION,
+    QUIET_OPTION,
     {NULL, '\0', NULL, NULL},
 };
 

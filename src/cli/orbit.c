@@ -9,6 +9,7 @@ static const option options[] = {
     JSON_OPTION,
     {"festoons", '\0', "N",
      "find the drive at which a stable pattern closes in the laboratory after N festoons"},
+    QUIET_OPTION,
     {NULL, '\0', NULL, NULL},
 };
 

@@ -11,6 +11,7 @@ static const option options[] = {
     {"dry-maps", '\0', NULL,
      "compute only the large maps with dry friction, into DIR (many minutes; the same command goes on)"},
     {"starts", '\0', "N", "starts of the search for a paramagnetic bead that counter-rotates (240)"},
+    QUIET_OPTION,
     {NULL, '\0', NULL, NULL},
 };
 

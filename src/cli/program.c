@@ -59,6 +59,8 @@ fst_status perform_command(const command *wanted, int count, char **words, FILE 
         status = become(wanted->program, words, error);
     if (status != FST_OK)
         return status;
+    if (option_value(&given, "quiet"))
+        progress_silence();
     given.map = &map;
     given.beads = &beads;
     status = wanted->perform(&given, out, error);

@@ -31,6 +31,7 @@ static const option options[] = {
     {"ramp-disturbance", '\0', "SIZE",
      "scaled disturbance of the velocities when a wait begins, so that the motion leaves unstable states "
      "(1e-6)"},
+    QUIET_OPTION,
     {NULL, '\0', NULL, NULL},
 };
 

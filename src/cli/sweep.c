@@ -31,6 +31,7 @@ static const option options[] = {
      "runs side by side on a thread: 1, 4 or 8 (what suits the processor); no row depends on it"},
     {"checkpoint", '\0', "SECONDS",
      "save the state of a run after so many seconds of work on it; a kill costs no more of it (3)"},
+    QUIET_OPTION,
     {NULL, '\0', NULL, NULL},
 };
 

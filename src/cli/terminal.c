@@ -125,9 +125,16 @@ static double now(void)
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
+static int silent;
+
+void progress_silence(void)
+{
+    silent = 1;
+}
+
 void progress_begin(progress_line *line)
 {
-    line->visible = isatty(STDERR_FILENO);
+    line->in_place = isatty(STDERR_FILENO);
     line->started = now();
     line->shown = line->started;
 }
@@ -149,17 +156,19 @@ fst_status progress_show_left(progress_line *line, double fraction, double secon
 {
     if (interrupted())
         return fail(error, FST_INTERRUPTED, "", "interrupted after %.3g %% of the way", 100.0 * fraction);
-    if (!line->visible)
-        return FST_OK;
-    double time = now();
-    if (time - line->shown < 0.2)
+    const double time = now(), passed = time - line->started;
+    if (silent || time - line->shown < (line->in_place ? 0.2 : 30.0) || (!line->in_place && passed < 60.0))
         return FST_OK;
     line->shown = time;
-    (void)fprintf(stderr, "\r\033[K%5.1f %%", 100.0 * fraction);
+    (void)fprintf(stderr, line->in_place ? "\r\033[K%5.1f %%" : "%5.1f %%", 100.0 * fraction);
+    if (!line->in_place)
+        (void)fprintf(stderr, "  after %.0f s", passed);
     if (isfinite(seconds_left))
         show_time_left(seconds_left);
     if (what)
         (void)fprintf(stderr, "  %.60s", what);
+    if (!line->in_place)
+        (void)fputc('\n', stderr);
     (void)fflush(stderr);
     return FST_OK;
 }
@@ -178,7 +187,7 @@ fst_status progress_tell(void *line, double fraction, const char *what, fst_erro
 
 void progress_end(progress_line *line)
 {
-    if (line->visible && line->shown > line->started)
+    if (line->in_place && line->shown > line->started)
         (void)fputs("\r\033[K", stderr);
 }
 

@@ -16,11 +16,15 @@ void terminal_work_ends(void);
 /* Whether SIGINT, SIGTERM or SIGHUP came. */
 int interrupted(void);
 
-/* A line of progress on standard error, if that is a terminal. */
+/* Progress on standard error: one line that changes if that is a terminal, otherwise a line every half minute of work that
+ * has taken a minute. */
 typedef struct progress_line {
     double started, shown; /* s */
-    int visible;
+    int in_place;          /* it changes */
 } progress_line;
+
+/* No command that is begun from here on shows any. */
+void progress_silence(void);
 
 void progress_begin(progress_line *line);
 
@@ -35,7 +39,7 @@ fst_status progress_show_left(progress_line *line, double fraction, double secon
 /* progress_show() as the tell() of an fst_progress: `line` is a progress_line. */
 fst_status progress_tell(void *line, double fraction, const char *what, fst_error *error);
 
-/* Wipe the line. */
+/* Wipe the line that changes. */
 void progress_end(progress_line *line);
 
 /* Read standard input to its end, or `most` bytes of it.  Returns 0, or an errno; a signal ends it too. */

@@ -15,6 +15,7 @@ static const option options[] = {
     {"overlay", '\0', "FILM.mp4",
      "a film (mp4, mov) that shows what was found, slowed down to 30 frames a second"},
     {"picture", '\0', "FIG.png", "one picture to check by eye: the path, the plate's edge, and beads enlarged"},
+    QUIET_OPTION,
     {NULL, '\0', NULL, NULL},
 };
 

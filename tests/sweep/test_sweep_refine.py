@@ -402,7 +402,7 @@ class Adversity(RefineCase):
         status, out, err = festoon(*words, "--refine-by", "impacts_per_return:0.1")
         self.assertEqual((status, json.loads(out)["computed"]), (0, 5))
         self.assertIn("impacts_per_return has no value in any of the 5 rows, so nothing was refined", err)
-        status, out, err = festoon(*words)
+        status, out, err = festoon(*words, "--quiet")
         self.assertEqual((status, err), (0, ""))
 
 
