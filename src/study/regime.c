@@ -37,6 +37,8 @@ static const double KEPT = 1e-9;    /* Phi within this, or within run.rtol, keep
 /* Times run.rtol: slower motion, or a smaller difference of half returns, is not told from the integrator's
  * noise. */
 static const double NOISE = 100.0;
+/* A looser run.rtol has noise as fast as librations are: what it hides is not decided. */
+static const double LOOSEST = 1e-4;
 /* Times run.rtol: slower motion that grows comes from the errors of the steps. */
 static const double LEAVING = 10.0;
 /* Activity of a third of the window over the one before: above this, twice in a row, it grows. */
@@ -295,6 +297,14 @@ static decision decide_bounded(const fst_watched_run *run, const fst_exponent *e
     const double noise = noise_of(run);
     /* At an equilibrium the step size grows until the error of a step is the tolerance, and the state jitters.
      */
+    if (late < noise && !grows(marks) && run->params->run_rtol > LOOSEST) {
+        REASON("at rest or librating cannot be told at this accuracy: errors of the steps move the bead by up "
+               "to %.2g, and "
+               "|d(state)/dt| stays below %.2g; take run.rtol <= %g",
+               noise, late, LOOSEST);
+        tell_no_errors(result);
+        return DECIDED;
+    }
     if (late < noise && !grows(marks)) {
         result->regime = FST_REGIME_LOCKED;
         REASON("at rest in the turning frame to within the integrator's noise: |d(state)/dt| stays below %.2g, "

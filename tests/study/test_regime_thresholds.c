@@ -197,6 +197,22 @@ static void test_noise(void **unused)
     EITHER_SIDE(m, phi_range, 0.95e-6, FST_REGIME_LOCKED, "noise", 1.05e-6, FST_REGIME_LIBRATING, "die out");
 }
 
+/* Noise that is as fast as librations are decides nothing. */
+static void test_loose_steps(void **unused)
+{
+    (void)unused;
+    made_up m = LIBRATING;
+    m.rtol = 0.99e-4;
+    set_activity(&m, 0.9e-2, 0.9e-2);
+    expect(&m, FST_REGIME_LOCKED, "noise");
+    m.rtol = 1.01e-4;
+    expect(&m, FST_REGIME_UNDECIDED, "take run.rtol <= 0.0001");
+    set_activity(&m, 1.1e-2, 1.1e-2); /* faster than the noise */
+    expect(&m, FST_REGIME_LIBRATING, "die out");
+    m.speed_at_end = 0.9e-4; /* at rest, as nearly as the steps can be */
+    expect(&m, FST_REGIME_LOCKED, "at rest");
+}
+
 static void test_dies_out(void **unused)
 {
     (void)unused;
@@ -370,13 +386,21 @@ static void test_hidden_drift(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_beginnings),    cmocka_unit_test(test_at_rest),
-        cmocka_unit_test(test_noise),         cmocka_unit_test(test_dies_out),
-        cmocka_unit_test(test_closed),        cmocka_unit_test(test_relaxing),
-        cmocka_unit_test(test_one_way),       cmocka_unit_test(test_least_numbers),
-        cmocka_unit_test(test_growth),        cmocka_unit_test(test_drift),
-        cmocka_unit_test(test_hidden_drift),  cmocka_unit_test(test_wide_without_friction),
-        cmocka_unit_test(test_chance_return), cmocka_unit_test(test_significant),
+        cmocka_unit_test(test_beginnings),
+        cmocka_unit_test(test_at_rest),
+        cmocka_unit_test(test_noise),
+        cmocka_unit_test(test_loose_steps),
+        cmocka_unit_test(test_dies_out),
+        cmocka_unit_test(test_closed),
+        cmocka_unit_test(test_relaxing),
+        cmocka_unit_test(test_one_way),
+        cmocka_unit_test(test_least_numbers),
+        cmocka_unit_test(test_growth),
+        cmocka_unit_test(test_drift),
+        cmocka_unit_test(test_hidden_drift),
+        cmocka_unit_test(test_wide_without_friction),
+        cmocka_unit_test(test_chance_return),
+        cmocka_unit_test(test_significant),
     };
     return cmocka_run_group_tests_name("thresholds of regimes", tests, NULL, NULL);
 }
