@@ -16,14 +16,14 @@ typedef struct fst_film_track_options {
     const char *scale;   /* "bead 5 mm", "plate 460 mm", "X1,Y1:X2,Y2=50mm", four points; NULL: pixels */
     double distance;     /* m from the camera to the plate, by which the bead's height over the plate is
                             allowed for; NAN: it is not */
-    const char *csv;     /* the track as a file, festoon\'s own CSV; NULL: none */
+    int beads;           /* how many are followed, 1 to FST_TRACKED_BEADS */
+    const char *csv;     /* the tracks as a file, festoon\'s own CSV; NULL: none */
     const char *overlay; /* a film, .mp4 or .mov, that shows what was found; NULL: none */
     const char *picture; /* a picture, .png, of the same, also where no scale was found; NULL: none */
     const fst_progress *progress; /* NULL: nobody is told */
 } fst_film_track_options;
 FST_API fst_film_track_options fst_default_film_track_options(void);
 
-/* What is known of a tracked film. */
 /* An ellipse in the still picture that an edge of brightness follows. */
 typedef struct fst_plate_edge {
     double diameter[2]; /* the longer and the shorter one, pixels */
@@ -31,11 +31,19 @@ typedef struct fst_plate_edge {
     double share;       /* of the ellipse, along which there is an edge */
     double contrast;    /* the mean step of brightness there, gray levels */
 } fst_plate_edge;
-enum { FST_PLATE_EDGES = 6 };
 
+/* A frame from which on beads may have exchanged their names: each could be where another one was found. */
+typedef struct fst_name_doubt {
+    int frame;
+    double t;       /* s */
+    unsigned beads; /* bit k: bead k, from 0 */
+} fst_name_doubt;
+enum { FST_PLATE_EDGES = 6, FST_NAME_DOUBTS = 32 };
+
+/* What is known of a tracked film. */
 typedef struct fst_film_track_report {
     int width, height;       /* of its pictures, after turning them as the film says */
-    int frames, lost, twins; /* all frames; frames without the bead; frames that repeat the one before */
+    int frames, lost, twins; /* all frames; frames that lack a bead; frames that repeat the one before */
     int first_lost, missing; /* the first lost frame (-1: none); frames that the clock leaves room for */
     double fps, least_step, most_step; /* mean frames a second; shortest and longest time between frames, s */
     double tick;                       /* of the film's clock, s; 0: unknown */
@@ -48,16 +56,20 @@ typedef struct fst_film_track_report {
     /* Edges that may be the plate's, the steepest first: of these the outermost is taken that is at least a quarter as steep
      * as the first. */
     fst_plate_edge edges[FST_PLATE_EDGES];
-    int edge_count, edge_taken; /* no plate is asked for: 0, -1 */
-    char format[64], codec[64]; /* the file's, for a person */
-    char remark[256];           /* what else a person should know; "" */
+    int edge_count, edge_taken;             /* no plate is asked for: 0, -1 */
+    int beads, doubt_count;                 /* how many beads; how often names may have been exchanged */
+    fst_name_doubt doubts[FST_NAME_DOUBTS]; /* the first of these */
+    char format[64], codec[64];             /* the file's, for a person */
+    char remark[256];                       /* what else a person should know; "" */
 } fst_film_track_report;
 
-/* Track the bead of a film (whatever ffmpeg reads of mp4, mov, webm, gif, avi, ...) or of a folder of images,
- * which needs `fps`.  Frames count from 0; times are those of the film; y points up in the picture.  Without a
+/* Track the beads of a film (whatever ffmpeg reads of mp4, mov, webm, gif, avi, ...) or of a folder of images,
+ * which needs `fps`; `track` has room for options->beads tracks.  Several beads are of about one size; the first frame that
+ * shows all of them gives them their order, from the left to the right, and each keeps its place in it, but for what
+ * report->doubts tells.  Frames count from 0; times are those of the film; y points up in the picture.  Without a
  * scale the unit is px: (0, 0) is the centre of the pixel at the bottom left.  Memory does not grow with the
- * film, but for the track itself.  FST_BAD_INPUT: it is no film, no bead or two are found, the scale does not
- * fit. FST_UNAVAILABLE: there is no ffmpeg.  The files appear only where the call succeeds. */
+ * film, but for the track itself.  FST_BAD_INPUT: it is no film, another number of beads moves, the scale does
+ * not fit. FST_UNAVAILABLE: there is no ffmpeg.  The files appear only where the call succeeds. */
 FST_API fst_status fst_film_track(const char *film, const fst_film_track_options *options, fst_track *track,
                                   fst_film_track_report *report, fst_error *error);
 

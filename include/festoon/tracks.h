@@ -19,7 +19,7 @@ typedef enum {
     FST_FRAME_REJECTED /* a place is there, but the bead cannot have been at it; means leave it out */
 } fst_frame_flag;
 
-enum { FST_LENGTH_UNIT_SIZE = 8 };
+enum { FST_LENGTH_UNIT_SIZE = 8, FST_TRACKED_BEADS = 4 };
 
 /* A track: one row a frame, in the order of time.  Frames that a file leaves out have no row; their number
  * shows in `frame`, which rises by one from a frame of the film to the next.  The axes are those of the picture
@@ -31,6 +31,7 @@ typedef struct fst_track {
     double *t;           /* s; rises strictly.  NAN in all rows: the file has no clock (frames alone) */
     double *x, *y;       /* in length_unit, NAN where lost */
     unsigned char *flag; /* fst_frame_flag */
+    int *doubts;         /* how often until here the bead may have exchanged its name with another one's */
     char length_unit[FST_LENGTH_UNIT_SIZE]; /* "px", or a unit of params.def: "mm" */
     double fps; /* frames a second: of the file's clock, or as it was given; NAN: unknown */
     int steady; /* the times are those of a clock of constant frame rate, up to the digits written */
@@ -47,6 +48,10 @@ FST_API fst_status fst_track_append(fst_track *track, int64_t frame, double t, d
  * Without a clock there is no column `t [s]`. */
 FST_API fst_status fst_track_write(const char *path, const fst_track *track, fst_error *error);
 
+/* Write the tracks of one to four beads of a film, which have the same frames.  Of several the columns `track`, which counts
+ * from 1, and `doubts` follow, and a frame has a row for each bead. */
+FST_API fst_status fst_tracks_write(const char *path, const fst_track *tracks, int count, fst_error *error);
+
 /* How a file of tracks is to be read.  What stays as fst_default_track_options() makes it follows from the
  * file. */
 typedef struct fst_track_options {
@@ -62,6 +67,12 @@ FST_API fst_track_options fst_default_track_options(void);
 
 /* The names of the formats, separated by '|'. */
 FST_API const char *fst_track_formats(void);
+
+/* Read the tracks of all beads of a film that fst_tracks_write() wrote; of any other file, or where options->name is given,
+ * the one track that fst_track_read() reads.  `count` becomes their number; tracks[] is {0} behind them. */
+FST_API fst_status fst_tracks_read(const char *path, const fst_track_options *options,
+                                   fst_track tracks[FST_TRACKED_BEADS], int *count, char **understood,
+                                   fst_error *error);
 
 /* Read a track.  `understood` (may be NULL) becomes a text for a person: format, track, number of frames,
  * clock, unit, where y points; free() it.  FST_BAD_INPUT: the format is unknown, or a line is wrong;

@@ -8,6 +8,7 @@
 static const option options[] = {
     {"output", 'o', "TRACK.csv",
      "columns frame,t [s],x [mm],y [mm] (px without a scale), a row a frame; y points up"},
+    {"beads", '\0', "N", "how many beads of one size are followed, 1 to 4 (1)"},
     {"scale", '\0', "SCALE",
      "\"bead 5 mm\", \"plate 460 mm\", \"X1,Y1:X2,Y2=50mm\", or four corners \"...=80x60mm\""},
     {"fps", '\0', "F", "frames a second, instead of the film's clock; a folder of images needs it"},
@@ -25,9 +26,13 @@ static fst_status read_options(const arguments *given, fst_film_track_options *t
     track->scale = option_value(given, "scale");
     track->overlay = option_value(given, "overlay");
     track->picture = option_value(given, "picture");
-    const value_option rows[] = {{"fps", FST_UNIT_NUMBER, &track->fps, 0, 0},
+    double beads = 1.0;
+    const value_option rows[] = {{"beads", VALUE_WHOLE, &beads, 1, FST_TRACKED_BEADS},
+                                 {"fps", FST_UNIT_NUMBER, &track->fps, 0, 0},
                                  {"distance", FST_UNIT_LENGTH, &track->distance, 0, 0}};
-    return read_values(given, rows, sizeof rows / sizeof *rows, error);
+    const fst_status status = read_values(given, rows, sizeof rows / sizeof *rows, error);
+    track->beads = (int)beads;
+    return status;
 }
 
 /* Print the edge that was taken for the plate's, then the others, so that a wrong choice is seen. */
@@ -46,6 +51,27 @@ static void print_edges(const fst_film_track_report *r, FILE *out)
                           100.0 * r->edges[i].share);
 }
 
+/* Which of several beads may have exchanged their names, and when. */
+static void print_names(const fst_film_track_report *r, FILE *out)
+{
+    if (r->beads == 1)
+        return;
+    (void)fprintf(out,
+                  "names       1 to %d, from the left to the right in the first frame that shows all beads\n",
+                  r->beads);
+    if (r->doubt_count == 0)
+        (void)fputs("            each bead has kept its name\n", out);
+    for (int i = 0; i < r->doubt_count && i < FST_NAME_DOUBTS; ++i) {
+        (void)fprintf(out, "uncertain   from frame %d, %.6g s, the names", r->doubts[i].frame, r->doubts[i].t);
+        for (int bead = 0, told = 0; bead < r->beads; ++bead)
+            if (r->doubts[i].beads >> bead & 1)
+                (void)fprintf(out, "%s %d", told++ > 0 ? " and" : "", bead + 1);
+        (void)fputs(" may be exchanged\n", out);
+    }
+    if (r->doubt_count > FST_NAME_DOUBTS)
+        (void)fprintf(out, "            and %d times more\n", r->doubt_count - FST_NAME_DOUBTS);
+}
+
 static void print_report(const fst_film_track_report *r, int by_bead, FILE *out)
 {
     (void)fprintf(out, "film        %s, %s, %d x %d pixels\n", r->format, r->codec, r->width, r->height);
@@ -62,6 +88,7 @@ static void print_report(const fst_film_track_report *r, int by_bead, FILE *out)
         (void)fprintf(out, ", first frame %d", r->first_lost);
     (void)fprintf(out, "\nbead        %.1f pixels wide; noise of a pixel %.1f gray levels\n", r->diameter,
                   r->noise);
+    print_names(r, out);
     if (!isnan(r->jitter))
         (void)fprintf(out, "scatter     %.2f pixels about a smooth path\n", r->jitter);
     if (!isnan(r->scale))
@@ -86,18 +113,23 @@ static void warn(const fst_film_track_report *r)
             "rate, and its clock is wrong by as much as a frame; take the original\n",
             r->twins);
     if (r->lost > r->frames / 50)
+        (void)fprintf(stderr,
+                      "festoon: warning: %s lost in %d of %d frames: look at them with an overlay; shorter "
+                      "exposure, more light and a plain plate help\n",
+                      r->beads == 1 ? "the bead was" : "beads were", r->lost, r->frames);
+    if (r->doubt_count > 0)
         (void)fprintf(
             stderr,
-            "festoon: warning: the bead was lost in %d of %d frames: look at them with an overlay; shorter "
-            "exposure, more light and a plain plate help\n",
-            r->lost, r->frames);
+            "festoon: warning: beads may have exchanged their names, as told above, first in frame %d; "
+            "a higher frame rate tells them apart\n",
+            r->doubts[0].frame);
 }
 
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     fst_film_track_options film;
     fst_film_track_report report;
-    fst_track track;
+    fst_track tracks[FST_TRACKED_BEADS];
     progress_line line;
     const fst_progress progress = {&line, progress_tell};
     const char *path = operand(given), *to = option_value(given, "output");
@@ -111,26 +143,30 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     film.progress = &progress;
     film.csv = to;
     progress_begin(&line);
-    status = fst_film_track(path, &film, &track, &report, error);
+    status = fst_film_track(path, &film, tracks, &report, error);
     progress_end(&line);
     if (status != FST_OK)
         return status;
     print_report(&report, film.scale && strncmp(film.scale, "bead", 4) == 0, out);
     warn(&report);
     tell_written(to, "");
-    fst_track_free(&track);
+    for (int bead = 0; bead < film.beads; ++bead)
+        fst_track_free(&tracks[bead]);
     return FST_OK;
 }
 
 const command track_command = {
     .name = "track",
     .synopsis = "FILM|FOLDER -o TRACK.csv [--scale SCALE] [options]",
-    .summary = "Find the bead in every frame of a film, for festoon measure",
+    .summary = "Find the bead, or several, in every frame of a film, for festoon measure",
     .details =
         "FILM is what ffmpeg reads of mp4, mov, webm, gif, avi ...; FOLDER has images (PNG, JPEG, BMP, PGM, "
         "PPM),\n"
         "taken in the order of their names and numbers.  The camera must stand still; the bead must be darker\n"
-        "or brighter than the plate.  Pixels of a scale count from the top left, as in viewers of pictures.\n",
+        "or brighter than the plate.  With --beads a row is a bead in a frame: column track has its name, "
+        "doubts how\n"
+        "often until there it may have exchanged it with another one's.  Pixels of a scale count from the top "
+        "left, as in viewers of pictures.\n",
     .options = options,
     .most_operands = 1,
     .has_helpers = 1,

@@ -104,18 +104,25 @@ static fst_status choose(follow_bead *f, const unsigned char *frame, double time
     return FST_OK;
 }
 
+int follow_bead_see(follow_bead *follower, const unsigned char *frame)
+{
+    const size_t size = (size_t)follower->blobs->still->width * (size_t)follower->blobs->still->height;
+    const int twin = follower->frames++ > 0 && is_twin(follower, frame);
+    memcpy(follower->before, frame, size);
+    follow_still_gains(follower->blobs->still, frame, follower->gains);
+    follow_blobs_find(follower->blobs, frame, follower->gains, follower->look->sign, follower->look->threshold);
+    return twin;
+}
+
 fst_status follow_bead_next(follow_bead *follower, const unsigned char *frame, double time, follow_place *place,
                             fst_error *error)
 {
-    const size_t size = (size_t)follower->blobs->still->width * (size_t)follower->blobs->still->height;
-    follow_still_gains(follower->blobs->still, frame, follower->gains);
+    const int twin = follow_bead_see(follower, frame);
     *place = (follow_place){NAN, NAN, NAN, 0};
-    follow_blobs_find(follower->blobs, frame, follower->gains, follower->look->sign, follower->look->threshold);
     const fst_status status = choose(follower, frame, time, place, error);
     if (status != FST_OK)
         return status;
-    place->twin = follower->frames++ > 0 && is_twin(follower, frame);
-    memcpy(follower->before, frame, size);
+    place->twin = twin;
     if (!isnan(place->column) && !place->twin) {
         follower->last[1] = follower->last[0];
         follower->when[1] = follower->when[0];

@@ -26,6 +26,9 @@ fst_status follow_bead_begin(follow_bead *follower, follow_blobs *blobs, const f
                              fst_error *error);
 void follow_bead_end(follow_bead *follower);
 
+/* Find the spots of the next frame; returns whether it is the one before once more. */
+int follow_bead_see(follow_bead *follower, const unsigned char *frame);
+
 /* Find the bead in the next frame, which was taken at a time (s).  What is found depends on this frame and on
  * those before alone. */
 fst_status follow_bead_next(follow_bead *follower, const unsigned char *frame, double time, follow_place *place,

@@ -166,15 +166,31 @@ static fst_status make_room(follow_blobs *b, size_t window, fst_error *error)
     return FST_OK;
 }
 
+void follow_blobs_window(const follow_blobs *blobs, const follow_box *box, int window[4])
+{
+    const int right = blobs->still->width - 1, bottom = blobs->still->height - 1;
+    window[0] = box->left > MARGIN ? box->left - MARGIN : 0;
+    window[1] = box->right + MARGIN < right ? box->right + MARGIN : right;
+    window[2] = box->top > MARGIN ? box->top - MARGIN : 0;
+    window[3] = box->bottom + MARGIN < bottom ? box->bottom + MARGIN : bottom;
+}
+
+double follow_blobs_part(const follow_blobs *blobs, const follow_box *box, const int window[4], int column,
+                         int row)
+{
+    const int width = window[1] - window[0] + 1;
+    const double part = (double)blobs->cover[(row - window[2]) * width + column - window[0]];
+    return part > 0.0 && belongs(blobs, box, column, row) ? part : 0.0;
+}
+
 /* Sum what the window holds of the spot. */
 static void sum_up(const follow_blobs *b, const follow_box *box, const int window[4], follow_cover *cover)
 {
-    const int width = window[1] - window[0] + 1;
     double sum = 0.0, half_covered = 0.0, first[2] = {0.0, 0.0}, second[3] = {0.0, 0.0, 0.0};
     for (int row = window[2]; row <= window[3]; ++row)
         for (int column = window[0]; column <= window[1]; ++column) {
-            const double part = (double)b->cover[(row - window[2]) * width + column - window[0]];
-            if (part <= 0.0 || !belongs(b, box, column, row))
+            const double part = follow_blobs_part(b, box, window, column, row);
+            if (part <= 0.0)
                 continue;
             const double x = column - box->left, y = row - box->top; /* small numbers keep the moments exact */
             sum += part;
@@ -205,11 +221,9 @@ fst_status follow_blobs_cover(follow_blobs *blobs, const unsigned char *frame, c
                               const follow_look *look, const follow_box *box, follow_cover *cover,
                               fst_error *error)
 {
-    const int width = blobs->still->width, height = blobs->still->height;
-    const int window[4] = {box->left > MARGIN ? box->left - MARGIN : 0,
-                           box->right + MARGIN < width ? box->right + MARGIN : width - 1,
-                           box->top > MARGIN ? box->top - MARGIN : 0,
-                           box->bottom + MARGIN < height ? box->bottom + MARGIN : height - 1};
+    const int width = blobs->still->width;
+    int window[4];
+    follow_blobs_window(blobs, box, window);
     const int across = window[1] - window[0] + 1, down = window[3] - window[2] + 1;
     const fst_status status = make_room(blobs, (size_t)across * (size_t)down, error);
     if (status != FST_OK)

@@ -62,4 +62,10 @@ fst_status follow_blobs_cover(follow_blobs *blobs, const unsigned char *frame, c
                               const follow_look *look, const follow_box *box, follow_cover *cover,
                               fst_error *error);
 
+/* The first and last columns and rows of the window around a spot, and what a pixel of it adds to the spot's cover, until
+ * another spot's cover is asked for. */
+void follow_blobs_window(const follow_blobs *blobs, const follow_box *box, int window[4]);
+double follow_blobs_part(const follow_blobs *blobs, const follow_box *box, const int window[4], int column,
+                         int row);
+
 #endif

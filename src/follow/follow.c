@@ -4,6 +4,7 @@
  *        --> still.c   --> what stays still, of 41 frames at random times
  *                          --> learn.c   what the bead looks like
  *        --> decoder.c --> bead.c        where it is, frame by frame --> overlay.c
+ *                          beads.c       the same of several
  *                          --> plane.c, rim.c, plate.c   millimetres --> fst_track
  *
  * The film is decoded three times, because memory must not grow with it: once for the times, once for the
@@ -18,6 +19,7 @@
 #include "base/number.h"
 #include "base/order.h"
 #include "base/watch.h"
+#include "follow/beads.h"
 #include "follow/decoder.h"
 #include "follow/learn.h"
 #include "follow/overlay.h"
@@ -32,7 +34,7 @@ enum { OPTIONS_COOKIE = 0x54524b46 };
 
 fst_film_track_options fst_default_film_track_options(void)
 {
-    return (fst_film_track_options){.cookie = OPTIONS_COOKIE, .fps = NAN, .distance = NAN};
+    return (fst_film_track_options){.cookie = OPTIONS_COOKIE, .fps = NAN, .distance = NAN, .beads = 1};
 }
 
 /* A film being tracked. */
@@ -50,42 +52,54 @@ typedef struct tracking {
     follow_ellipse rim;
     int has_rim;
     follow_sizes sizes;
-    double *columns, *rows; /* pixels, of each frame; NAN where lost */
-    int frames;
+    double *columns[FST_TRACKED_BEADS], *rows[FST_TRACKED_BEADS]; /* pixels, of each frame; NAN where lost */
+    int *doubts[FST_TRACKED_BEADS]; /* how often until there the bead's name was in doubt */
+    int beads, frames;
 } tracking;
 
 /* ------------------------------------------------------------------ following */
 
-static void count_place(tracking *t, int index, const follow_place *place)
+static void count_places(tracking *t, int index, const follow_place *places, unsigned doubt)
 {
-    t->columns[index] = place->column;
-    t->rows[index] = place->row;
-    t->report->twins += place->twin;
-    if (!isnan(place->column)) {
-        follow_sizes_add(&t->sizes, place->column, place->row, place->diameter);
-        return;
+    fst_film_track_report *r = t->report;
+    int seen = 0;
+    for (int bead = 0; bead < t->beads; ++bead) {
+        const follow_place *place = &places[bead];
+        t->columns[bead][index] = place->column;
+        t->rows[bead][index] = place->row;
+        t->doubts[bead][index] = (index > 0 ? t->doubts[bead][index - 1] : 0) + (int)(doubt >> bead & 1U);
+        seen += !isnan(place->column);
+        if (!isnan(place->column) &&
+            !isnan(place->diameter)) /* the width of a bead that touches another is not known */
+            follow_sizes_add(&t->sizes, place->column, place->row, place->diameter);
     }
-    if (t->report->first_lost < 0)
-        t->report->first_lost = index;
-    ++t->report->lost;
+    r->twins += places[0].twin;
+    if (doubt && r->doubt_count++ < FST_NAME_DOUBTS)
+        r->doubts[r->doubt_count - 1] = (fst_name_doubt){index, t->source.times[index], doubt};
+    if (seen == t->beads)
+        return;
+    if (r->first_lost < 0)
+        r->first_lost = index;
+    ++r->lost;
 }
 
-static fst_status follow_frames(tracking *t, follow_decoder *decoder, follow_bead *follower,
+static fst_status follow_frames(tracking *t, follow_decoder *decoder, follow_beads *follower,
                                 const fst_progress *progress, fst_error *error)
 {
     for (int there = 1;;) {
-        follow_place place;
+        follow_place places[FST_TRACKED_BEADS];
+        unsigned doubt;
         fst_status status = follow_decoder_next(decoder, &there, error);
         if (status != FST_OK || !there || t->frames == t->source.frames)
             return status;
         const int index = t->frames;
-        status = follow_bead_next(follower, decoder->pixels, t->source.times[index], &place, error);
+        status = follow_beads_next(follower, decoder->pixels, t->source.times[index], places, &doubt, error);
         if (status == FST_OK)
             status =
-                follow_overlay_frame(&t->overlay, &t->still, decoder->pixels, index, &t->look, &place, error);
+                follow_overlay_frame(&t->overlay, &t->still, decoder->pixels, index, &t->look, places, error);
         if (status != FST_OK)
             return status;
-        count_place(t, index, &place);
+        count_places(t, index, places, doubt);
         ++t->frames;
         decoder->child.fraction = (double)t->frames / t->source.frames;
         status = fst_tell(progress, decoder->child.fraction, NULL, error);
@@ -97,22 +111,25 @@ static fst_status follow_frames(tracking *t, follow_decoder *decoder, follow_bea
 static fst_status follow(tracking *t, const fst_progress *progress, fst_error *error)
 {
     follow_decoder decoder;
-    follow_bead follower;
+    follow_beads follower;
     const size_t count = (size_t)t->source.frames;
-    t->columns = malloc(count * sizeof *t->columns);
-    t->rows = malloc(count * sizeof *t->rows);
-    if (!t->columns || !t->rows)
-        return fst_fail(error, FST_NO_MEMORY, t->path, "no memory for %d places", t->source.frames);
+    for (int bead = 0; bead < t->beads; ++bead) {
+        t->columns[bead] = malloc(count * sizeof **t->columns);
+        t->rows[bead] = malloc(count * sizeof **t->rows);
+        t->doubts[bead] = malloc(count * sizeof **t->doubts);
+        if (!t->columns[bead] || !t->rows[bead] || !t->doubts[bead])
+            return fst_fail(error, FST_NO_MEMORY, t->path, "no memory for %d places", t->source.frames);
+    }
     t->sizes.middle[0] = 0.5 * t->still.width;
     t->sizes.middle[1] = 0.5 * t->still.height;
-    fst_status status = follow_bead_begin(&follower, &t->blobs, &t->look, error);
+    fst_status status = follow_beads_begin(&follower, &t->blobs, &t->look, t->beads, error);
     if (status != FST_OK)
         return status;
     status = follow_decoder_start(&decoder, &t->source, NULL, 0, progress, error);
     if (status == FST_OK)
         status = follow_frames(t, &decoder, &follower, progress, error);
     const int well = follow_decoder_end(&decoder, status != FST_OK);
-    follow_bead_end(&follower);
+    follow_beads_end(&follower);
     if (status != FST_OK)
         return status;
     if (t->source.descriptor < 0 && t->frames < t->source.frames)
@@ -134,9 +151,9 @@ static double jitter_of(const tracking *t, double *room)
 {
     int count = 0;
     for (int i = 4; i < t->frames; ++i) {
-        const double *lists[2] = {t->columns + i, t->rows + i};
-        for (int k = 0; k < 2; ++k) {
-            const double *p = lists[k], off = p[0] - 4.0 * p[-1] + 6.0 * p[-2] - 4.0 * p[-3] + p[-4];
+        for (int k = 0; k < 2 * t->beads; ++k) {
+            const double *p = (k % 2 ? t->rows : t->columns)[k / 2] + i,
+                         off = p[0] - 4.0 * p[-1] + 6.0 * p[-2] - 4.0 * p[-3] + p[-4];
             if (!isnan(off))
                 room[count++] = fabs(off);
         }
@@ -159,7 +176,7 @@ static fst_status tell_times(tracking *t, fst_error *error)
 {
     fst_film_track_report *r = t->report;
     const int steps = t->frames - 1;
-    double *room = malloc((size_t)(2 * t->frames + 1) * sizeof *room);
+    double *room = malloc((size_t)(2 * t->beads * t->frames + 1) * sizeof *room);
     if (!room)
         return fst_fail(error, FST_NO_MEMORY, t->path, "no memory for its times");
     for (int i = 0; i < steps; ++i)
@@ -184,20 +201,19 @@ static fst_status tell_times(tracking *t, fst_error *error)
 static void middle_of_path(const tracking *t, double middle[2], double *reach)
 {
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
-    for (int i = 0; i < t->frames; ++i) {
-        if (isnan(t->columns[i]))
-            continue;
-        low[0] = fmin(low[0], t->columns[i]);
-        low[1] = fmin(low[1], t->rows[i]);
-        high[0] = fmax(high[0], t->columns[i]);
-        high[1] = fmax(high[1], t->rows[i]);
-    }
+    for (int bead = 0; bead < t->beads; ++bead)
+        for (int i = 0; i < t->frames; ++i) { /* fmin() and fmax() pass over NAN */
+            low[0] = fmin(low[0], t->columns[bead][i]);
+            low[1] = fmin(low[1], t->rows[bead][i]);
+            high[0] = fmax(high[0], t->columns[bead][i]);
+            high[1] = fmax(high[1], t->rows[bead][i]);
+        }
     middle[0] = 0.5 * (low[0] + high[0]);
     middle[1] = 0.5 * (low[1] + high[1]);
     *reach = 0.0;
-    for (int i = 0; i < t->frames; ++i)
-        if (!isnan(t->columns[i]))
-            *reach = fmax(*reach, hypot(t->columns[i] - middle[0], t->rows[i] - middle[1]));
+    for (int bead = 0; bead < t->beads; ++bead)
+        for (int i = 0; i < t->frames; ++i)
+            *reach = fmax(*reach, hypot(t->columns[bead][i] - middle[0], t->rows[bead][i] - middle[1]));
 }
 
 static fst_status plane_of_plate(tracking *t, const double middle[2], double reach, fst_error *error)
@@ -315,7 +331,7 @@ static fst_status begin(tracking *t, fst_error *error)
     if (status == FST_OK)
         status = check_points(t, error);
     if (status == FST_OK)
-        status = follow_learn(&t->blobs, t->path, &told[2], &t->look, error);
+        status = follow_learn(&t->blobs, t->path, t->beads, &told[2], &t->look, error);
     if (status == FST_OK && !(t->look.diameter >= LEAST_DIAMETER))
         status =
             fst_fail(error, FST_BAD_INPUT, t->path,
@@ -330,7 +346,7 @@ static fst_status begin(tracking *t, fst_error *error)
     return status;
 }
 
-static fst_status make_track(const tracking *t, fst_track *track, fst_error *error)
+static fst_status make_track(const tracking *t, int bead, fst_track *track, fst_error *error)
 {
     (void)snprintf(track->length_unit, sizeof track->length_unit, "%s",
                    t->scale.kind == FOLLOW_SCALE_NONE ? "px" : "mm");
@@ -338,20 +354,26 @@ static fst_status make_track(const tracking *t, fst_track *track, fst_error *err
     track->steady = t->report->most_step - t->report->least_step < 1e-3 * t->report->least_step;
     for (int i = 0; i < t->frames; ++i) {
         double x = NAN, y = NAN;
-        if (!isnan(t->columns[i]))
-            follow_plane_map(&t->plane, t->columns[i], t->rows[i], &x, &y);
+        if (!isnan(t->columns[bead][i]))
+            follow_plane_map(&t->plane, t->columns[bead][i], t->rows[bead][i], &x, &y);
         const fst_status status = fst_track_append(track, i, t->source.times[i], x, y, error);
         if (status != FST_OK)
             return status;
+        track->doubts[i] = t->doubts[bead][i];
     }
     return FST_OK;
+}
+
+static fst_status finish_overlay(tracking *t, fst_error *error)
+{
+    return follow_overlay_finish(&t->overlay, &t->still, &t->look, t->columns, t->rows, t->frames,
+                                 t->has_rim ? &t->rim : NULL, error);
 }
 
 /* Where no scale was found, the picture and the overlay show why: they are written all the same. */
 static void show_what_was_found(tracking *t)
 {
-    if (follow_overlay_finish(&t->overlay, &t->still, &t->look, t->columns, t->rows, t->frames,
-                              t->has_rim ? &t->rim : NULL, NULL) == FST_OK)
+    if (finish_overlay(t, NULL) == FST_OK)
         (void)follow_overlay_commit(&t->overlay, NULL);
 }
 
@@ -364,14 +386,15 @@ static fst_status perform(tracking *t, fst_track *track, fst_error *error)
     if (status != FST_OK)
         return status;
     const double fps = (t->source.frames - 1) / (t->source.times[t->source.frames - 1] - t->source.times[0]);
-    status = follow_overlay_begin(&t->overlay, &t->still, &t->look, fps, t->source.frames, o->overlay,
+    status = follow_overlay_begin(&t->overlay, &t->still, &t->look, fps, t->source.frames, t->beads, o->overlay,
                                   o->picture, error);
     if (status == FST_OK)
         status = follow(t, &told, error);
     t->report->frames = t->frames;
     if (status == FST_OK && t->report->lost == t->frames)
-        status =
-            fst_fail(error, FST_BAD_INPUT, t->path, "the bead was found in none of its %d frames", t->frames);
+        status = fst_fail(error, FST_BAD_INPUT, t->path, "%s in none of its %d frames",
+                          t->beads == 1 ? "the bead was found" : "all beads were found apart from each other",
+                          t->frames);
     if (status != FST_OK)
         return status;
     status = make_plane(t, error);
@@ -380,13 +403,12 @@ static fst_status perform(tracking *t, fst_track *track, fst_error *error)
         return status;
     }
     status = tell_times(t, error);
+    for (int bead = 0; bead < t->beads && status == FST_OK; ++bead)
+        status = make_track(t, bead, &track[bead], error);
     if (status == FST_OK)
-        status = make_track(t, track, error);
-    if (status == FST_OK)
-        status = follow_overlay_finish(&t->overlay, &t->still, &t->look, t->columns, t->rows, t->frames,
-                                       t->has_rim ? &t->rim : NULL, error);
+        status = finish_overlay(t, error);
     if (status == FST_OK && o->csv)
-        status = fst_track_write(o->csv, track, error);
+        status = fst_tracks_write(o->csv, track, t->beads, error);
     return status == FST_OK ? follow_overlay_commit(&t->overlay, error) : status;
 }
 
@@ -409,7 +431,9 @@ fst_status fst_film_track(const char *film, const fst_film_track_options *option
                   .options = options ? options : &defaults,
                   .report = report ? report : &unwanted,
                   .source = {.descriptor = -1}};
+    t.beads = t.options->beads;
     *t.report = (fst_film_track_report){.first_lost = -1,
+                                        .beads = t.beads,
                                         .fps = NAN,
                                         .jitter = NAN,
                                         .scale = NAN,
@@ -420,6 +444,11 @@ fst_status fst_film_track(const char *film, const fst_film_track_options *option
     if (t.options->cookie != OPTIONS_COOKIE)
         return fst_fail(error, FST_BAD_INPUT, "fst_film_track",
                         "the options were not made by fst_default_film_track_options()");
+    if (t.beads < 1 || t.beads > FST_TRACKED_BEADS)
+        return fst_fail(error, FST_BAD_INPUT, "fst_film_track_options.beads",
+                        "%d beads to be followed: 1 to %d", t.beads, FST_TRACKED_BEADS);
+    for (int bead = 0; bead < t.beads; ++bead)
+        track[bead] = (fst_track){.rows = 0};
     if (!isnan(t.options->distance) && !(t.options->distance > 0.0 && t.options->distance <= 1e3))
         return fst_fail(error, FST_BAD_INPUT, "fst_film_track_options.distance",
                         "%g m from the camera to the plate: more than 0, at most 1 km", t.options->distance);
@@ -429,14 +458,17 @@ fst_status fst_film_track(const char *film, const fst_film_track_options *option
         status = check_place(t.options->csv, error);
     if (status == FST_OK)
         status = perform(&t, track, error);
-    if (status != FST_OK)
-        fst_track_free(track);
+    for (int bead = 0; bead < t.beads; ++bead) {
+        if (status != FST_OK)
+            fst_track_free(&track[bead]);
+        free(t.columns[bead]);
+        free(t.rows[bead]);
+        free(t.doubts[bead]);
+    }
     follow_overlay_free(&t.overlay);
     follow_blobs_end(&t.blobs);
     follow_still_free(&t.still);
     follow_source_close(&t.source);
-    free(t.columns);
-    free(t.rows);
     fst_c_locale_leave(locale);
     return status;
 }

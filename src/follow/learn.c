@@ -1,7 +1,7 @@
 /* learn.c - the bead's contrast and size, from frames at random times.
  *
- * What moves is one spot in nearly every sample, all of about the same area.  It is darker or brighter than the
- * background: that sign is taken which most of the difference has.
+ * What moves is one spot in nearly every sample, all of about the same area, or as many as there are beads, which make one
+ * spot where they touch.  It is darker or brighter than the background: that sign is taken which most of the difference has.
  */
 #include "follow/learn.h"
 
@@ -9,9 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "base/order.h"
 #include "base/watch.h"
+#include "follow/split.h"
 
 #define LEAST_CONTRAST 8.0 /* gray levels: less is no bead that can be followed */
 #define OF_NOISE 6.0       /* a bead's difference, in deviations of a pixel */
@@ -19,7 +21,8 @@
 #define SECOND 0.5         /* a second spot of this part of the first one's area is another bead */
 #define SHARP 0.85         /* of the samples are blurred more: a blurred bead has less contrast */
 #define SEEN 0.5           /* part of the samples in which a bead must be seen */
-#define TWICE 0.3          /* part of the samples in which two of them are too many */
+#define UNHIDDEN 0.75      /* of the samples show less of several beads, which hide each other */
+#define TWICE 0.3          /* part of the samples in which one more is too many */
 
 /* The value below which the given part of the values lies; 0 of none. */
 static double quantile(double *values, int count, double part)
@@ -108,6 +111,7 @@ static fst_status find_sign(follow_blobs *b, double threshold, const fst_progres
 typedef struct learnt {
     double contrasts[FOLLOW_SAMPLES], areas[FOLLOW_SAMPLES];
     double widths[FOLLOW_SAMPLES], blurs[FOLLOW_SAMPLES]; /* pixels; and how much longer than wide it looks */
+    int beads;                                            /* how many there are; `areas` are sums over them */
     double behind; /* level of the background behind it, summed over the samples */
     int seen, twice;
 } learnt;
@@ -116,7 +120,7 @@ static fst_status measure_size(follow_blobs *b, int k, const follow_look *look, 
                                fst_error *error)
 {
     const float *gains = gains_of(b, k);
-    double best = 0.0, second = 0.0, width = 0.0, blur = 0.0;
+    double best = 0.0, width = 0.0, blur = 0.0, areas[FST_TRACKED_BEADS + 1] = {0.0}; /* the greatest first */
     follow_blobs_find(b, sample(b, k), gains, look->sign, look->threshold);
     for (int i = 0; i < b->count; ++i) {
         follow_cover cover;
@@ -124,20 +128,25 @@ static fst_status measure_size(follow_blobs *b, int k, const follow_look *look, 
         if (status != FST_OK)
             return status;
         if (cover.area > best) {
-            second = best;
             best = cover.area;
             width = fmin(cover.width, cover.narrow); /* motion widens the first, soft outlines the second */
             blur = cover.wide / fmax(cover.narrow, 0.1);
-        } else if (cover.area > second) {
-            second = cover.area;
+        }
+        for (int at = lesson->beads; at >= 0 && cover.area > areas[at]; --at) {
+            if (at < lesson->beads)
+                areas[at + 1] = areas[at];
+            areas[at] = cover.area;
         }
     }
     if (!(best > 0.0))
         return FST_OK;
-    lesson->areas[lesson->seen] = best;
+    double sum = 0.0;
+    for (int i = 0; i < lesson->beads; ++i)
+        sum += areas[i];
+    lesson->areas[lesson->seen] = sum;
     lesson->widths[lesson->seen] = width;
     lesson->blurs[lesson->seen++] = blur;
-    lesson->twice += second > SECOND * best;
+    lesson->twice += areas[lesson->beads] > SECOND * sum / lesson->beads;
     return FST_OK;
 }
 
@@ -167,12 +176,30 @@ static fst_status no_bead(const char *path, const follow_blobs *b, int seen, dou
         seen, b->still->count, threshold);
 }
 
-static fst_status two_beads(const char *path, int twice, int count, fst_error *error)
+static const char *const numbers[] = {"no", "one", "two", "three", "four", "five"};
+
+static fst_status too_many(const char *path, const learnt *lesson, int count, fst_error *error)
 {
     return fst_fail(error, FST_BAD_INPUT, path,
-                    "two things of about the same size move in %d of %d frames looked at: one bead can be "
-                    "followed; cut the other, or its reflection, out of the picture",
-                    twice, count);
+                    "%s things of about the same size move in %d of %d frames looked at, where %s bead%s to be "
+                    "followed: %scut the others, or reflections, out of the picture",
+                    numbers[lesson->beads + 1], lesson->twice, count, numbers[lesson->beads],
+                    lesson->beads == 1 ? " was" : "s were",
+                    lesson->beads < FST_TRACKED_BEADS ? "say how many beads there are, or " : "");
+}
+
+/* A bead's area follows from its width, so that beads which touch are counted too. */
+static fst_status check_count(const char *path, const learnt *lesson, double width, int count, fst_error *error)
+{
+    int enough = 0;
+    for (int i = 0; i < lesson->seen; ++i)
+        enough += lesson->areas[i] > (lesson->beads - 0.5) * 0.25 * FST_PI * width * width;
+    return lesson->beads == 1 || enough >= SEEN * count
+               ? FST_OK
+               : fst_fail(error, FST_BAD_INPUT, path,
+                          "%s beads were to be followed, and in %d of %d frames looked at fewer move: one that "
+                          "rests, or hardly moves, cannot be told from the plate",
+                          numbers[lesson->beads], count - enough, count);
 }
 
 /* The width of the bead, by those samples in which it is blurred least.  Compression and optics make its
@@ -189,12 +216,12 @@ static double width_of(const learnt *lesson)
     return quantile(widths, count, 0.5);
 }
 
-fst_status follow_learn(follow_blobs *blobs, const char *path, const fst_progress *progress, follow_look *look,
-                        fst_error *error)
+fst_status follow_learn(follow_blobs *blobs, const char *path, int beads, const fst_progress *progress,
+                        follow_look *look, fst_error *error)
 {
     const int count = blobs->still->count;
     const double least = fmax(OF_NOISE * blobs->still->noise, LEAST_CONTRAST);
-    learnt lesson = {.seen = 0};
+    learnt lesson = {.beads = beads};
     int crowded;
     *look = (follow_look){.threshold = least};
     fst_status status = find_sign(blobs, least, progress, &look->sign, &crowded, error);
@@ -216,8 +243,8 @@ fst_status follow_learn(follow_blobs *blobs, const char *path, const fst_progres
     if (lesson.seen < SEEN * count)
         return no_bead(path, blobs, lesson.seen, look->threshold, crowded, error);
     if (lesson.twice > TWICE * count)
-        return two_beads(path, lesson.twice, count, error);
-    look->area = quantile(lesson.areas, lesson.seen, 0.5);
+        return too_many(path, &lesson, count, error);
     look->diameter = width_of(&lesson);
-    return FST_OK;
+    look->area = quantile(lesson.areas, lesson.seen, beads == 1 ? 0.5 : UNHIDDEN) / beads;
+    return check_count(path, &lesson, look->diameter, count, error);
 }

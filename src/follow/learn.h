@@ -4,9 +4,9 @@
 
 #include "follow/blobs.h"
 
-/* Find out whether the bead is darker or brighter than the background, by how much, and how large it is.
- * FST_BAD_INPUT: nothing of the kind moves, or two things do; the sentence says what to look at. */
-fst_status follow_learn(follow_blobs *blobs, const char *path, const fst_progress *progress, follow_look *look,
-                        fst_error *error);
+/* Find out whether one to four beads are darker or brighter than the background, by how much, and how large they are.
+ * FST_BAD_INPUT: fewer things of the kind move, or more do; the sentence says what to look at. */
+fst_status follow_learn(follow_blobs *blobs, const char *path, int beads, const fst_progress *progress,
+                        follow_look *look, fst_error *error);
 
 #endif

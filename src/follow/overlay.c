@@ -1,6 +1,7 @@
 /* overlay.c - painting over gray pictures, without any library: rings, lines and dots.
  *
- * The film shows each frame with a ring around the bead, its trail, and a red frame where it was lost.  The
+ * The film shows each frame with a ring around the bead, its trail, and a red frame where it was lost.  Of several beads
+ * each has a colour, by which rings and trails show whether names were kept.  The
  * picture shows the whole path over what stays still, red lines where frames are lost, the plate's edge if it
  * was asked for, and below it enlarged beads with their rings, from frames all over the film.
  */
@@ -19,8 +20,9 @@ enum { QUALITY = 20, SLOWEST = 30 };
 typedef struct colour {
     int blue, green, red;
 } colour;
-static const colour path_colour = {219, 152, 52}, ring_colour = {0, 210, 255}, lost_colour = {40, 40, 230},
-                    rim_colour = {60, 200, 80};
+static const colour path_colours[FST_TRACKED_BEADS] = {
+    {219, 152, 52}, {60, 160, 40}, {200, 80, 180}, {40, 140, 240}};
+static const colour ring_colour = {0, 210, 255}, lost_colour = {40, 40, 230}, rim_colour = {60, 200, 80};
 
 /* ------------------------------------------------------------------ painting */
 
@@ -86,13 +88,14 @@ static const char *format_of(const char *path, const char *const *formats)
 }
 
 fst_status follow_overlay_begin(follow_overlay *overlay, const follow_still *still, const follow_look *look,
-                                double fps, int total, const char *film, const char *picture, fst_error *error)
+                                double fps, int total, int beads, const char *film, const char *picture,
+                                fst_error *error)
 {
     static const char *const films[] = {"mp4", "mov", NULL}, *const pictures[] = {"png", NULL};
-    *overlay = (follow_overlay){.film_path = film, .picture_path = picture, .total = total};
+    *overlay = (follow_overlay){.film_path = film, .picture_path = picture, .total = total, .beads = beads};
     overlay->crop_scale = fmin(8.0, fmax(0.25, FOLLOW_CROP_SIZE / (2.2 * look->diameter)));
-    for (int i = 0; i < FOLLOW_TRAIL; ++i)
-        overlay->trail[i].column = NAN;
+    for (int i = 0; i < beads * FOLLOW_TRAIL; ++i)
+        overlay->trail[i / FOLLOW_TRAIL][i % FOLLOW_TRAIL].column = NAN;
     if (film && !(overlay->format = format_of(film, films)))
         return fst_fail(error, FST_BAD_INPUT, film, "the name of an overlay film ends in .mp4 or .mov");
     if (picture && !format_of(picture, pictures))
@@ -137,21 +140,28 @@ static void keep_crop(follow_overlay *o, const follow_still *still, const unsign
 }
 
 static void paint_frame(follow_overlay *o, const follow_still *still, const unsigned char *frame, int index,
-                        const follow_look *look, const follow_place *place)
+                        const follow_look *look, const follow_place *places)
 {
     follow_canvas *canvas = &o->canvas;
+    int seen = 0;
     lay_gray(canvas, 0, 0, frame, still->width, still->height);
-    for (int k = 1; k < FOLLOW_TRAIL; ++k) {
-        const follow_place *a = &o->trail[(index + k) % FOLLOW_TRAIL],
-                           *b = &o->trail[(index + k + 1) % FOLLOW_TRAIL];
-        if (!isnan(a->column) && !isnan(b->column))
-            line(canvas, a->column, a->row, b->column, b->row, 1.5, path_colour);
+    for (int k = 1; k < o->beads * FOLLOW_TRAIL; ++k) {
+        const follow_place *trail = o->trail[k / FOLLOW_TRAIL], *a = &trail[(index + k) % FOLLOW_TRAIL],
+                           *b = &trail[(index + k + 1) % FOLLOW_TRAIL];
+        if (k % FOLLOW_TRAIL > 0 && !isnan(a->column) && !isnan(b->column))
+            line(canvas, a->column, a->row, b->column, b->row, 1.5, path_colours[k / FOLLOW_TRAIL]);
     }
-    if (!isnan(place->column)) {
-        ring(canvas, place->column, place->row, 0.5 * look->diameter + 1.5, 1.5, ring_colour);
-        line(canvas, place->column, place->row, place->column, place->row, 3.0, ring_colour);
+    for (int bead = 0; bead < o->beads; ++bead) {
+        const follow_place *place = &places[bead];
+        const colour c = o->beads > 1 ? path_colours[bead] : ring_colour;
+        if (isnan(place->column))
+            continue;
+        ++seen;
+        ring(canvas, place->column, place->row, 0.5 * look->diameter + 1.5, 1.5, c);
+        line(canvas, place->column, place->row, place->column, place->row, 3.0, c);
+    }
+    if (seen == o->beads)
         return;
-    }
     const double right = canvas->width - 1.0, bottom = canvas->height - 1.0, thick = 12.0;
     line(canvas, 0.0, 0.0, right, 0.0, thick, lost_colour);
     line(canvas, 0.0, bottom, right, bottom, thick, lost_colour);
@@ -160,15 +170,18 @@ static void paint_frame(follow_overlay *o, const follow_still *still, const unsi
 }
 
 fst_status follow_overlay_frame(follow_overlay *overlay, const follow_still *still, const unsigned char *frame,
-                                int index, const follow_look *look, const follow_place *place, fst_error *error)
+                                int index, const follow_look *look, const follow_place *places,
+                                fst_error *error)
 {
     const int64_t due = (int64_t)overlay->total * (2 * overlay->crop_count + 1) / (2 * FOLLOW_CROPS);
+    const follow_place *place = &places[overlay->crop_count % overlay->beads]; /* each bead has its turn */
     if (overlay->picture_path && overlay->crop_count < FOLLOW_CROPS && index >= due && !isnan(place->column))
         keep_crop(overlay, still, frame, place);
     if (!overlay->film_path)
         return FST_OK;
-    overlay->trail[index % FOLLOW_TRAIL] = *place;
-    paint_frame(overlay, still, frame, index, look, place);
+    for (int bead = 0; bead < overlay->beads; ++bead)
+        overlay->trail[bead][index % FOLLOW_TRAIL] = places[bead];
+    paint_frame(overlay, still, frame, index, look, places);
     ++overlay->frames;
     return fst_process_write(&overlay->process, overlay->canvas.pixels,
                              4 * (size_t)overlay->canvas.width * (size_t)overlay->canvas.height, error);
@@ -189,7 +202,7 @@ static void paint_rim(follow_canvas *canvas, const follow_ellipse *rim)
     }
 }
 
-static void paint_path(follow_canvas *canvas, const double *columns, const double *rows, int count)
+static void paint_path(follow_canvas *canvas, const double *columns, const double *rows, int count, colour c)
 {
     int last = -1;
     for (int i = 0; i < count; ++i) {
@@ -201,7 +214,7 @@ static void paint_path(follow_canvas *canvas, const double *columns, const doubl
     }
     for (int i = 0; i < count; ++i)
         if (!isnan(columns[i]))
-            line(canvas, columns[i], rows[i], columns[i], rows[i], 1.6, path_colour);
+            line(canvas, columns[i], rows[i], columns[i], rows[i], 1.6, c);
 }
 
 /* The pieces in a row below the picture, each with a ring of the bead's size and a cross at its centre. */
@@ -233,8 +246,8 @@ static fst_status write_picture(const follow_overlay *o, const follow_canvas *ca
 }
 
 static fst_status make_picture(const follow_overlay *o, const follow_still *still, const follow_look *look,
-                               const double *columns, const double *rows, int count, const follow_ellipse *rim,
-                               fst_error *error)
+                               double *const *columns, double *const *rows, int count,
+                               const follow_ellipse *rim, fst_error *error)
 {
     follow_canvas canvas;
     const size_t size = (size_t)still->width * (size_t)still->height;
@@ -254,7 +267,8 @@ static fst_status make_picture(const follow_overlay *o, const follow_still *stil
     free(gray);
     if (rim)
         paint_rim(&canvas, rim);
-    paint_path(&canvas, columns, rows, count);
+    for (int bead = 0; bead < o->beads; ++bead)
+        paint_path(&canvas, columns[bead], rows[bead], count, path_colours[bead]);
     paint_crops(o, &canvas, look, still->height + 4);
     status = write_picture(o, &canvas, error);
     free(canvas.pixels);
@@ -264,7 +278,7 @@ static fst_status make_picture(const follow_overlay *o, const follow_still *stil
 /* ------------------------------------------------------------------ the end */
 
 fst_status follow_overlay_finish(follow_overlay *overlay, const follow_still *still, const follow_look *look,
-                                 const double *columns, const double *rows, int count,
+                                 double *const *columns, double *const *rows, int count,
                                  const follow_ellipse *rim, fst_error *error)
 {
     fst_status status = FST_OK;

@@ -21,8 +21,8 @@ typedef struct follow_overlay {
     const char *film_path, *picture_path; /* the caller's; NULL: not wanted */
     const char *format;
     follow_canvas canvas;
-    int frames, started;
-    follow_place trail[FOLLOW_TRAIL]; /* the last places, a ring */
+    int frames, started, beads;
+    follow_place trail[FST_TRACKED_BEADS][FOLLOW_TRAIL]; /* the last places, a ring */
     /* For the picture: enlarged pieces of frames around the bead, evenly over the film. */
     unsigned char crops[FOLLOW_CROPS][FOLLOW_CROP_SIZE * FOLLOW_CROP_SIZE];
     double crop_scale;
@@ -31,16 +31,17 @@ typedef struct follow_overlay {
 
 /* Begin; nothing is written where both paths are NULL. */
 fst_status follow_overlay_begin(follow_overlay *overlay, const follow_still *still, const follow_look *look,
-                                double fps, int total, const char *film, const char *picture, fst_error *error);
-
-/* One frame, with the place that was found in it. */
-fst_status follow_overlay_frame(follow_overlay *overlay, const follow_still *still, const unsigned char *frame,
-                                int index, const follow_look *look, const follow_place *place,
+                                double fps, int total, int beads, const char *film, const char *picture,
                                 fst_error *error);
 
-/* Finish both, but leave them without their names yet.  `rim` (may be NULL) is the plate's edge. */
+/* One frame, with the place of each bead that was found in it. */
+fst_status follow_overlay_frame(follow_overlay *overlay, const follow_still *still, const unsigned char *frame,
+                                int index, const follow_look *look, const follow_place *places,
+                                fst_error *error);
+
+/* Finish both, but leave them without their names yet.  columns[] and rows[] are those of each bead.  `rim` (may be NULL) is the plate's edge. */
 fst_status follow_overlay_finish(follow_overlay *overlay, const follow_still *still, const follow_look *look,
-                                 const double *columns, const double *rows, int count,
+                                 double *const *columns, double *const *rows, int count,
                                  const follow_ellipse *rim, fst_error *error);
 
 /* Give them their names. */

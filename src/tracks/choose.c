@@ -50,10 +50,11 @@ static fst_status choose_track(choice *c, fst_error *error)
     size_t *seen = seen_by_track(c->raw);
     if (!seen)
         return fst_fail(error, FST_NO_MEMORY, c->path, "no memory for %d tracks", c->raw->name_count);
-    c->track = -1;
+    const int which = c->track;
     for (int i = 0; i < c->raw->name_count; ++i) {
-        const int wanted = !c->options->name || strcmp(c->options->name, c->raw->names[i]) == 0;
-        if (wanted && (c->track < 0 || seen[i] > seen[c->track]))
+        const int wanted =
+            which >= 0 ? i == which : !c->options->name || strcmp(c->options->name, c->raw->names[i]) == 0;
+        if (wanted && (c->track < 0 || which >= 0 || seen[i] > seen[c->track]))
             c->track = i;
     }
     c->seen = c->track < 0 ? 0 : seen[c->track];
@@ -265,7 +266,7 @@ static fst_status set_clock(const choice *c, track_spot *spots, size_t count, fs
 
 /* ---------------------------------------------------------------- the whole */
 
-static char *tell(const choice *c, const fst_track *track)
+static char *tell(const choice *c, const fst_track *track, int of_all)
 {
     fst_printed printed;
     FILE *out = fst_print_begin(&printed);
@@ -275,7 +276,9 @@ static char *tell(const choice *c, const fst_track *track)
     (void)snprintf(name, sizeof name, "%s", c->raw->names[c->track]);
     fst_text_tame(name);
     (void)fprintf(out, "%s: ", c->raw->format);
-    if (c->raw->name_count > 1)
+    if (of_all)
+        (void)fprintf(out, "%d beads; track \"%s\": ", c->raw->name_count, name);
+    else if (c->raw->name_count > 1)
         (void)fprintf(out, "track \"%s\", %s of %d; ", name, c->options->name ? "chosen" : "the longest",
                       c->raw->name_count);
     (void)fprintf(out, "%zu places in frames %lld to %lld, ", c->seen, (long long)track->frame[0],
@@ -300,10 +303,14 @@ static fst_status take_frames(const choice *c, const track_spot *spots, size_t c
 {
     const double from = c->options->from, to = c->options->to;
     fst_status status = FST_OK;
-    for (size_t i = 0; i < count && status == FST_OK; ++i)
-        if (!(spots[i].frame < from || spots[i].frame > to))
-            status = fst_track_append(track, (int64_t)spots[i].frame, spots[i].t, spots[i].x * c->scale,
-                                      spots[i].y * (c->raw->y_down ? -c->scale : c->scale), error);
+    for (size_t i = 0; i < count && status == FST_OK; ++i) {
+        if (spots[i].frame < from || spots[i].frame > to)
+            continue;
+        status = fst_track_append(track, (int64_t)spots[i].frame, spots[i].t, spots[i].x * c->scale,
+                                  spots[i].y * (c->raw->y_down ? -c->scale : c->scale), error);
+        if (status == FST_OK)
+            track->doubts[track->rows - 1] = spots[i].doubts;
+    }
     if (status == FST_OK && track->rows < 2)
         status = fst_fail(error, FST_BAD_INPUT, from >= 0 ? "fst_track_options.from" : "fst_track_options.to",
                           "the track has frames %.0f to %.0f: of those asked for it has %s", spots[0].frame,
@@ -311,10 +318,10 @@ static fst_status take_frames(const choice *c, const track_spot *spots, size_t c
     return status;
 }
 
-fst_status track_choose(const track_raw *raw, const char *path, const fst_track_options *options,
+fst_status track_choose(const track_raw *raw, const char *path, const fst_track_options *options, int which,
                         fst_track *track, char **understood, fst_error *error)
 {
-    choice c = {.raw = raw, .path = path, .options = options};
+    choice c = {.raw = raw, .path = path, .options = options, .track = which};
     track_spot *spots = NULL;
     size_t count = 0;
     *track = (fst_track){0};
@@ -330,7 +337,7 @@ fst_status track_choose(const track_raw *raw, const char *path, const fst_track_
     if (status == FST_OK)
         status = take_frames(&c, spots, count, track, error);
     free(spots);
-    if (status == FST_OK && understood && !(*understood = tell(&c, track)))
+    if (status == FST_OK && understood && !(*understood = tell(&c, track, which >= 0)))
         status = fst_fail(error, FST_NO_MEMORY, path, "no memory for what was understood of this track");
     if (status != FST_OK)
         fst_track_free(track);

@@ -20,6 +20,7 @@ typedef struct track_spot {
     double t;     /* in the file's unit of time, NAN: none */
     double x, y;  /* NAN: lost */
     size_t line;  /* of the file; 0: unknown */
+    int doubts;   /* of fst_track */
 } track_spot;
 
 enum { TRACK_NAME_SIZE = 64, TRACK_MOST_TRACKS = 65536 };
@@ -34,6 +35,7 @@ typedef struct track_raw {
     double time_unit;     /* s that a unit of `t` lasts */
     double interval;      /* s from frame to frame, as the file says; NAN: it does not */
     int y_down;
+    int is_whole;     /* all beads of a film, whose tracks belong together */
     char format[64];  /* for a person: "TrackMate, CSV" */
     char remark[256]; /* what else a person should know of how the file was understood; "" */
 } track_raw;
@@ -49,8 +51,8 @@ fst_status track_raw_name(track_raw *raw, const char *name, int *index, fst_erro
 fst_status track_read_text(const fst_text *text, const fst_track_options *options, track_raw *raw,
                            fst_error *error);
 
-/* Make a track of what was read. */
-fst_status track_choose(const track_raw *raw, const char *path, const fst_track_options *options,
+/* Make a track of what was read: that of the name `which`, or where this is -1 the one that the options tell. */
+fst_status track_choose(const track_raw *raw, const char *path, const fst_track_options *options, int which,
                         fst_track *track, char **understood, fst_error *error);
 
 /* The factor of a unit of time ("s", "ms", "sec"...) in seconds; 0: no unit of time. */

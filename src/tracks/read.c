@@ -162,7 +162,7 @@ static fst_status read_trajectory(const fst_text *text, size_t header, int varia
             status = track_raw_add(raw,
                                    (track_spot){track, NAN, table.columns[FST_COLUMN_t][i],
                                                 millimetres * table.columns[FST_COLUMN_x][i],
-                                                millimetres * table.columns[FST_COLUMN_y][i], 0},
+                                                millimetres * table.columns[FST_COLUMN_y][i], 0, 0},
                                    error);
     }
     fst_model_free(model);
@@ -192,12 +192,36 @@ fst_status track_read_text(const fst_text *text, const fst_track_options *option
     return status == FST_OK ? formats[which].read(text, header, formats[which].variant, raw, error) : status;
 }
 
-fst_status fst_track_read(const char *path, const fst_track_options *options, fst_track *track,
-                          char **understood, fst_error *error)
+/* Make tracks of what was read: of all beads, if they belong together and are wanted, or of one. */
+static fst_status choose(const track_raw *raw, const char *path, const fst_track_options *options, int all,
+                         fst_track *tracks, int *count, char **understood, fst_error *error)
+{
+    const int several = all && raw->is_whole && !options->name && raw->name_count > 1;
+    *count = 1;
+    if (!several)
+        return track_choose(raw, path, options, -1, tracks, understood, error);
+    if (raw->name_count > FST_TRACKED_BEADS)
+        return fst_fail(
+            error, FST_BAD_INPUT, path,
+            "there are %d tracks with a column doubts, which only films of up to %d beads have: say "
+            "which track is wanted",
+            raw->name_count, FST_TRACKED_BEADS);
+    fst_status status = FST_OK;
+    for (*count = 0; *count < raw->name_count && status == FST_OK; ++*count)
+        status =
+            track_choose(raw, path, options, *count, &tracks[*count], *count == 0 ? understood : NULL, error);
+    for (int i = 0; i < *count && status != FST_OK; ++i)
+        fst_track_free(&tracks[i]);
+    return status;
+}
+
+static fst_status read_tracks(const char *path, const fst_track_options *options, int all, fst_track *tracks,
+                              int *count, char **understood, fst_error *error)
 {
     fst_text text;
     track_raw raw;
-    *track = (fst_track){0};
+    for (int i = 0; i < (all ? FST_TRACKED_BEADS : 1); ++i)
+        tracks[i] = (fst_track){0};
     if (options->cookie != OPTIONS_COOKIE)
         return fst_fail(error, FST_BAD_INPUT, "fst_track_read",
                         "the options were not made by fst_default_track_options()");
@@ -206,8 +230,21 @@ fst_status fst_track_read(const char *path, const fst_track_options *options, fs
     if (status == FST_OK)
         status = track_read_text(&text, options, &raw, error);
     if (status == FST_OK)
-        status = track_choose(&raw, path, options, track, understood, error);
+        status = choose(&raw, path, options, all, tracks, count, understood, error);
     track_raw_free(&raw);
     fst_text_free(&text);
     return status;
+}
+
+fst_status fst_tracks_read(const char *path, const fst_track_options *options,
+                           fst_track tracks[FST_TRACKED_BEADS], int *count, char **understood, fst_error *error)
+{
+    return read_tracks(path, options, 1, tracks, count, understood, error);
+}
+
+fst_status fst_track_read(const char *path, const fst_track_options *options, fst_track *track,
+                          char **understood, fst_error *error)
+{
+    int count;
+    return read_tracks(path, options, 0, track, &count, understood, error);
 }

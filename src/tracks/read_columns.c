@@ -14,7 +14,7 @@
 #include "base/text.h"
 #include "tracks/read_formats.h"
 
-enum { FRAME, TIME, X, Y, NAME, ROLES };
+enum { FRAME, TIME, X, Y, NAME, DOUBTS, ROLES };
 
 /* A format: the names of its columns, its unit of length where the head says none, and the way of its y. */
 typedef struct style {
@@ -26,14 +26,14 @@ typedef struct style {
 #define USUAL_NAMES                                                                                            \
     {                                                                                                          \
         "frame|frames|frame number|image", "t|time|timestamp", "x|pos x|position x|xpos",                      \
-            "y|pos y|position y|ypos", "track|particle|object|track id"                                        \
+            "y|pos y|position y|ypos", "track|particle|object|track id", "doubts"                              \
     }
 
 static const style styles[] = {
     [TRACK_ANY_COLUMNS] = {USUAL_NAMES, "", "s", 0, 0},
     [TRACK_TRACKPY] = {USUAL_NAMES, "px", "s", 1, 0},
-    [TRACK_TRACKMATE] = {{"FRAME", "POSITION_T", "POSITION_X", "POSITION_Y", "TRACK_ID"}, "", "sec", 1, 1},
-    [TRACK_IMAGEJ] = {{"slice n*", "", "x", "y", "track n*"}, "px", "s", 1, 0},
+    [TRACK_TRACKMATE] = {{"FRAME", "POSITION_T", "POSITION_X", "POSITION_Y", "TRACK_ID", ""}, "", "sec", 1, 1},
+    [TRACK_IMAGEJ] = {{"slice n*", "", "x", "y", "track n*", ""}, "px", "s", 1, 0},
 };
 
 typedef struct reader {
@@ -102,6 +102,12 @@ static fst_status take_row(reader *r)
     const int key = r->columns[FRAME].place ? FRAME : TIME;
     if (status == FST_OK && isnan(*values[key]))
         status = fst_text_fail_cell(&r->table, &r->columns[key], NULL, "is empty");
+    double doubts = NAN;
+    if (status == FST_OK)
+        status = fst_text_value(&r->table, &r->columns[DOUBTS], &doubts);
+    if (status == FST_OK && !(isnan(doubts) || (doubts >= 0.0 && doubts < 1e9)))
+        status = fst_text_fail_cell(&r->table, &r->columns[DOUBTS], NULL, "is no count");
+    spot.doubts = isnan(doubts) ? 0 : (int)doubts;
     if (status == FST_OK)
         status = track_raw_name(r->raw, name, &spot.track, r->table.error);
     return status == FST_OK ? track_raw_add(r->raw, spot, r->table.error) : status;
@@ -134,6 +140,7 @@ fst_status track_read_columns(const fst_text *text, size_t header, int variant, 
     fst_status status = fst_text_head(&r.table, r.columns, ROLES, "t [s],x [mm],y [mm]");
     if (status == FST_OK)
         status = take_units(&r);
+    raw->is_whole = r.columns[NAME].place && r.columns[DOUBTS].place;
     while (status == FST_OK) {
         status = fst_text_row(&r.table, &more);
         if (status != FST_OK || !more)

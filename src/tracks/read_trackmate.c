@@ -53,7 +53,8 @@ static fst_status keep_spot(model *m, const fst_xml_event *element, fst_error *e
                              NAN,
                              fst_xml_number(element, "POSITION_X"),
                              fst_xml_number(element, "POSITION_Y"),
-                             element->line};
+                             element->line,
+                             0};
     const double id = fst_xml_number(element, "ID");
     if (isnan(id) || isnan(spot.frame) || isnan(spot.x) || isnan(spot.y))
         return fst_text_fail(m->path, spot.line, error,
@@ -88,7 +89,8 @@ static fst_status take_detection(model *m, const fst_xml_event *element, fst_err
                              NAN,
                              fst_xml_number(element, "x"),
                              fst_xml_number(element, "y"),
-                             element->line};
+                             element->line,
+                             0};
     if (isnan(spot.frame) || isnan(spot.x) || isnan(spot.y) || m->particles == 0)
         return fst_text_fail(m->path, spot.line, error,
                              "a detection lacks one of t, x, y, or it is no number, or it is of no particle");

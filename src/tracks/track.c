@@ -15,6 +15,7 @@ void fst_track_free(fst_track *track)
     free(track->x);
     free(track->y);
     free(track->flag);
+    free(track->doubts);
     *track = (fst_track){0};
 }
 
@@ -25,7 +26,8 @@ fst_status fst_track_append(fst_track *track, int64_t frame, double t, double x,
         if (!fst_resize(&track->frame, capacity, sizeof *track->frame) ||
             !fst_resize(&track->t, capacity, sizeof *track->t) ||
             !fst_resize(&track->x, capacity, sizeof *track->x) ||
-            !fst_resize(&track->y, capacity, sizeof *track->y) || !fst_resize(&track->flag, capacity, 1))
+            !fst_resize(&track->y, capacity, sizeof *track->y) || !fst_resize(&track->flag, capacity, 1) ||
+            !fst_resize(&track->doubts, capacity, sizeof *track->doubts))
             return fst_fail(error, FST_NO_MEMORY, "", "no memory for a track of %zu frames", capacity);
         track->capacity = capacity;
     }
@@ -36,6 +38,7 @@ fst_status fst_track_append(fst_track *track, int64_t frame, double t, double x,
     track->x[i] = seen ? x : NAN;
     track->y[i] = seen ? y : NAN;
     track->flag[i] = seen ? FST_FRAME_SEEN : FST_FRAME_LOST;
+    track->doubts[i] = 0;
     return FST_OK;
 }
 
@@ -52,6 +55,11 @@ static void put(FILE *out, double value, char end)
 
 fst_status fst_track_write(const char *path, const fst_track *track, fst_error *error)
 {
+    return fst_tracks_write(path, track, 1, error);
+}
+
+fst_status fst_tracks_write(const char *path, const fst_track *track, int count, fst_error *error)
+{
     fst_whole_file file;
     const fst_status status = fst_whole_file_open(&file, path, error);
     if (status != FST_OK)
@@ -59,14 +67,18 @@ fst_status fst_track_write(const char *path, const fst_track *track, fst_error *
     const fst_c_locale locale = fst_c_locale_enter();
     const int timed = track->rows == 0 || isfinite(track->t[0]);
     const char *unit = track->length_unit[0] ? track->length_unit : "px";
-    (void)fprintf(file.stream, "frame,%sx [%s],y [%s]\n", timed ? "t [s]," : "", unit, unit);
-    for (size_t i = 0; i < track->rows; ++i) {
-        (void)fprintf(file.stream, "%lld,", (long long)track->frame[i]);
-        if (timed)
-            put(file.stream, track->t[i], ',');
-        put(file.stream, track->x[i], ',');
-        put(file.stream, track->y[i], '\n');
-    }
+    (void)fprintf(file.stream, "frame,%sx [%s],y [%s]%s\n", timed ? "t [s]," : "", unit, unit,
+                  count > 1 ? ",track,doubts" : "");
+    for (size_t i = 0; i < track->rows; ++i)
+        for (const fst_track *one = track; one < track + count; ++one) {
+            (void)fprintf(file.stream, "%lld,", (long long)one->frame[i]);
+            if (timed)
+                put(file.stream, one->t[i], ',');
+            put(file.stream, one->x[i], ',');
+            put(file.stream, one->y[i], count > 1 ? ',' : '\n');
+            if (count > 1)
+                (void)fprintf(file.stream, "%d,%d\n", (int)(one - track) + 1, one->doubts[i]);
+        }
     fst_c_locale_leave(locale);
     return fst_whole_file_commit(&file, error);
 }

@@ -38,7 +38,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (status == FST_OK)
         status = track_read_text(&text, &options, &raw, &error);
     if (status == FST_OK)
-        status = track_choose(&raw, "fuzz", &options, &track, NULL, &error);
+        status = track_choose(&raw, "fuzz", &options, -1, &track, NULL, &error);
     if (status == FST_OK)
         check_track(&track);
     else if (error.code == FST_OK || !error.sentence[0])
