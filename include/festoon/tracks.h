@@ -133,6 +133,43 @@ FST_API const fst_measured_info *fst_measured_at(int index);
 FST_API fst_status fst_measure_track(fst_track *track, const fst_measure_options *options,
                                      fst_measurement *measured, fst_error *error);
 
+/* What the angle between two beads does. */
+typedef enum { FST_PAIRINGS(FST_ROW_ENUM) FST_PAIRING_COUNT } fst_pairing;
+FST_API const char *fst_pairing_name(fst_pairing pairing);
+
+/* Two beads of one film.  The angle is that from the first to the second one about the common centre, on the plate,
+ * counter-clockwise in the film.  NAN: unknown, or without a meaning. */
+typedef struct fst_pair {
+    int beads[2];                          /* from 0 */
+    double angle_deg, angle_deg_error;     /* its mean, -180 to 180; NAN where one bead goes past the other */
+    double angle_spread_deg;               /* its standard deviation over the film */
+    double drift_deg_s, drift_deg_s_error; /* by which it grows, degrees a second */
+    double mean_distance, least_distance;  /* between the centres, in the tracks' unit */
+    int64_t frames;                        /* in which both were seen, once the motion has settled */
+    fst_pairing pairing;
+    char reason[96]; /* why numbers are missing; "" */
+} fst_pair;
+enum { FST_TRACKED_PAIRS = FST_TRACKED_BEADS * (FST_TRACKED_BEADS - 1) / 2 };
+
+/* Several beads of one film. */
+typedef struct fst_beads_measurement {
+    int count, pair_count;
+    fst_measurement beads[FST_TRACKED_BEADS];
+    char reasons[FST_TRACKED_BEADS][FST_WARNING_SIZE]; /* why a bead was not measured: it rests, ...; "" */
+    fst_pair pairs[FST_TRACKED_PAIRS];
+    int groups
+        [FST_TRACKED_BEADS]; /* of each bead: the first one with which it orbits, the angle being steady */
+    int grouped;             /* 0: the film does not tell the groups */
+} fst_beads_measurement;
+
+/* Measure the tracks of the beads of one film as fst_measure_track() does, and each pair.  A bead of which nothing can be
+ * measured has a reason; FST_NO_CONVERGENCE: all have. */
+FST_API fst_status fst_measure_tracks(fst_track *tracks, int count, const fst_measure_options *options,
+                                      fst_beads_measurement *measured, fst_error *error);
+
+/* The same as JSON, in which beads count from 1; free() it.  NULL: no memory. */
+FST_API char *fst_beads_measurement_json(const fst_beads_measurement *measured);
+
 /* Draw a measured track: the path on the plate, the path in the frame that turns with the magnet, r against
  * alpha, and what the fit leaves of r over time.  `compare` (NULL: nothing) is a scene whose path, at the drive
  * of the track, is laid over both paths; of a track in px it is drawn with the same <r>.  FST_BAD_INPUT: the

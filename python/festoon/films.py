@@ -52,7 +52,7 @@ def camera(samples: Any, path: Path, truth: Optional[Path], progress: Progress, 
     return _facts(facts)
 
 
-def track(film: Path, *, progress: Progress = None, **given: Any) -> Any:
+def track(film: Path, *, beads: int = 1, progress: Progress = None, **given: Any) -> Any:
     """Find the bead in every frame of a film: a `Track`, whose `report` says what is known of the film.
 
     Options: fps, scale ("bead 5 mm", "plate 460 mm", "X1,Y1:X2,Y2=50mm"), distance, and the files csv, overlay,
@@ -62,6 +62,8 @@ def track(film: Path, *, progress: Progress = None, **given: Any) -> Any:
     ----------
     film
         The file.
+    beads
+        How many beads of one size are followed, 1 to 4.
     progress
         True: a bar; or a function of (fraction, what).
     **given
@@ -70,7 +72,8 @@ def track(film: Path, *, progress: Progress = None, **given: Any) -> Any:
     Returns
     -------
     Track
-        Its lengths are in mm where there is a scale.
+        Its lengths are in mm where there is a scale.  Of several beads it is a list, of which `report["doubts"]` says from
+        which frames on names may be exchanged.
 
     Raises
     ------
@@ -87,13 +90,18 @@ def track(film: Path, *, progress: Progress = None, **given: Any) -> Any:
 
     options = options_of(lib.fst_default_film_track_options())
     kept = set_options(options, given, "track")
-    found = ffi.gc(ffi.new("fst_track *"), lib.fst_track_free)
+    options.beads = beads
+    found = ffi.new("fst_track[]", lib.FST_TRACKED_BEADS)
     report = ffi.new("fst_film_track_report *")
     with Watch(progress, title="track") as watch:
         options.progress = watch.told
         watch.call(lib.fst_film_track, path_bytes(film), options, found, report)
     del kept
-    made = Track._of(found)
-    made.report = _facts(report)
-    made.report["edges"] = made.report["edges"][:report.edge_count]
-    return made
+    facts = _facts(report)
+    facts["edges"] = facts["edges"][: report.edge_count]
+    facts["doubts"] = facts["doubts"][: report.doubt_count]
+    made = []
+    for i in range(beads):
+        made.append(Track._of(ffi.gc(ffi.new("fst_track *", found[i]), lib.fst_track_free)))
+        made[-1].report = facts
+    return made if beads > 1 else made[0]

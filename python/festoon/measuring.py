@@ -20,7 +20,7 @@ Path = Union[str, "os.PathLike[str]"]
 
 
 #: The arrays of a track, and the types of their numbers in C.
-COLUMNS = {"frame": "int64_t", "t": "double", "x": "double", "y": "double", "flag": "unsigned char"}
+COLUMNS = {"frame": "int64_t", "t": "double", "x": "double", "y": "double", "flag": "unsigned char", "doubts": "int"}
 
 
 def _struct_of(columns: Mapping[str, Any], length_unit: str, fps: float, steady: bool) -> Any:
@@ -106,6 +106,11 @@ class Track:
     def flag(self) -> Any:
         """0: seen, 1: lost, 2: rejected."""
         return self._column("flag", "u1")
+
+    @property
+    def doubts(self) -> Any:
+        """How often until each frame the bead may have exchanged its name with another one's."""
+        return self._column("doubts", "i4")
 
     @property
     def fps(self) -> float:

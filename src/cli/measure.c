@@ -7,7 +7,7 @@
 
 static const option options[] = {
     JSON_OPTION,
-    {"output", 'o', "POINTS.csv", "a table of points for festoon fit, a row a track"},
+    {"output", 'o', "POINTS.csv", "a table of points for festoon fit, a row a track, or a bead"},
     {"drive", '\0', "10.7Hz",
      "the magnet's drive, with a minus where it turns clockwise in the film; one for each track: F,F,..."},
     {"figure", '\0', "FIG", "draw path, r against alpha and residuals to FIG.svg, .pdf or .png (of one track)"},
@@ -19,7 +19,7 @@ static const option options[] = {
     {"to", '\0', "FRAME", "the last one"},
     {"scale", '\0', "0.123mm", "the length of one unit of the file (of a pixel, mostly)"},
     {"format", '\0', "NAME", "the file's format, instead of what its header says"},
-    {"track", '\0', "NAME", "which track of several (otherwise the longest)"},
+    {"track", '\0', "NAME", "which track of several (otherwise the longest, or of track --beads all)"},
     {"exposure", '\0', "2ms", "how long a frame was exposed: what that blurs is corrected"},
     QUIET_OPTION,
     {NULL, '\0', NULL, NULL},
@@ -97,6 +97,31 @@ static void print_measurement(FILE *out, const fst_measurement *m)
         (void)fprintf(out, "  warning: %s\n", m->warnings[i]);
 }
 
+static void print_pair(FILE *out, const fst_pair *p, const char *unit)
+{
+    (void)fprintf(out, "\nbeads %d and %d: the angle between them is %s%s%s%s\n", p->beads[0] + 1,
+                  p->beads[1] + 1, fst_pairing_name(p->pairing), p->reason[0] ? " (" : "", p->reason,
+                  p->reason[0] ? ")" : "");
+    print_value(out, "angle", p->angle_deg, p->angle_deg_error, "degrees");
+    print_value(out, "its drift", p->drift_deg_s, p->drift_deg_s_error, "degrees/s");
+    if (!isnan(p->angle_spread_deg))
+        (void)fprintf(out, "  %-24s %.6g degrees\n", "its spread", p->angle_spread_deg);
+    if (p->frames > 0)
+        (void)fprintf(out, "  %-24s %.6g %s, at least %.6g, in %lld frames\n", "distance", p->mean_distance,
+                      unit, p->least_distance, (long long)p->frames);
+}
+
+/* Who orbits with whom. */
+static void print_groups(FILE *out, const fst_beads_measurement *m)
+{
+    (void)fprintf(out, "\n%-26s", "groups");
+    for (int group = 0; group < m->count && m->grouped; ++group)
+        for (int i = 0, size = 0; i < m->count; ++i)
+            if (m->groups[i] == group)
+                (void)fprintf(out, "%s%d", size++ > 0 ? " " : group > 0 ? " | " : "", i + 1);
+    (void)fprintf(out, "%s\n", m->grouped ? "" : "unknown");
+}
+
 /* Everything that is asked of the tracks, one after the other. */
 typedef struct job {
     const arguments *given;
@@ -105,7 +130,9 @@ typedef struct job {
     char unit[FST_LENGTH_UNIT_SIZE];
     double drives[OPERAND_LIMIT]; /* Hz; one for all tracks, or one for each */
     int drive_count;
-    fst_point rows[OPERAND_LIMIT];
+    fst_point rows[FST_TRACKED_BEADS * OPERAND_LIMIT];
+    size_t row_count;
+    fst_beads_measurement found; /* of the present track */
     FILE *out;
 } job;
 
@@ -134,7 +161,7 @@ static fst_status take_point(job *j, int index, const fst_measurement *m, fst_er
 {
     const char *path = j->given->operands[index];
     char text[SHOWN_SIZE];
-    fst_point *row = &j->rows[index];
+    fst_point *row = &j->rows[j->row_count++];
     const fst_status status = fst_point_of(m, j->drive_count > 0 ? j->what.drive : NAN, row, error);
     if (status != FST_OK) {
         (void)snprintf(error->where, sizeof error->where, "%.255s", path);
@@ -147,19 +174,42 @@ static fst_status take_point(job *j, int index, const fst_measurement *m, fst_er
     return FST_OK;
 }
 
-static fst_status print_result(const job *j, int index, const fst_measurement *m, fst_error *error)
+/* A track, or the tracks of several beads of one film. */
+static void print_track(const job *j, int index)
+{
+    const fst_beads_measurement *m = &j->found;
+    const int several = j->given->operand_count > 1 || m->count > 1;
+    char text[SHOWN_SIZE];
+    for (int bead = 0; bead < m->count; ++bead) {
+        if (several)
+            (void)fprintf(j->out, "%s%s", index + bead > 0 ? "\n" : "", shown(j->given->operands[index], text));
+        if (m->count > 1)
+            (void)fprintf(j->out, ", bead %d", bead + 1);
+        if (several)
+            (void)fputc('\n', j->out);
+        if (m->reasons[bead][0])
+            (void)fprintf(j->out, "  not measured: %s\n", m->reasons[bead]);
+        else
+            print_measurement(j->out, &m->beads[bead]);
+    }
+    for (int i = 0; i < m->pair_count; ++i)
+        print_pair(j->out, &m->pairs[i], m->beads[0].length_unit);
+    if (m->count > 1)
+        print_groups(j->out, m);
+}
+
+static fst_status print_result(const job *j, int index, fst_error *error)
 {
     const int several = j->given->operand_count > 1;
-    char text[SHOWN_SIZE];
     if (!option_value(j->given, "json")) {
-        if (several)
-            (void)fprintf(j->out, "%s%s\n", index > 0 ? "\n" : "", shown(j->given->operands[index], text));
-        print_measurement(j->out, m);
+        print_track(j, index);
         return FST_OK;
     }
     if (several)
         (void)fputs(index == 0 ? "[\n" : ",\n", j->out);
-    const fst_status status = print_and_free(fst_measurement_json(m), j->out, error);
+    const fst_status status = print_and_free(j->found.count > 1 ? fst_beads_measurement_json(&j->found)
+                                                                : fst_measurement_json(&j->found.beads[0]),
+                                             j->out, error);
     if (several && index + 1 == j->given->operand_count)
         (void)fputs("]\n", j->out);
     return status;
@@ -185,39 +235,43 @@ static fst_status draw_figure(const job *j, const fst_track *track, const fst_me
 
 static fst_status measure_track(job *j, int index, fst_error *error)
 {
-    fst_track track = {0};
-    fst_measurement measured;
+    fst_track tracks[FST_TRACKED_BEADS];
+    int count = 0;
     char *understood = NULL, text[SHOWN_SIZE];
     const char *path = j->given->operands[index], *to = option_value(j->given, "output");
     if (j->drive_count > 0)
         j->what.drive = j->drives[j->drive_count > 1 ? index : 0];
-    fst_status status = fst_track_read(path, &j->how, &track, &understood, error);
+    fst_status status = fst_tracks_read(path, &j->how, tracks, &count, &understood, error);
     if (status == FST_OK && understood)
         (void)fprintf(stderr, "%s: %s\n", shown(path, text), understood);
+    if (status == FST_OK && count > 1 && option_value(j->given, "figure"))
+        status = fail(error, FST_BAD_INPUT, "--figure", "a figure is of one track: say which by --track");
     if (status == FST_OK) {
         progress_line line;
         const fst_progress progress = {&line, progress_tell};
         j->what.progress = &progress;
         progress_begin(&line);
-        status = fst_measure_track(&track, &j->what, &measured, error);
+        status = fst_measure_tracks(tracks, count, &j->what, &j->found, error);
         progress_end(&line);
     }
     if (status != FST_OK && !error->where[0])
         (void)snprintf(error->where, sizeof error->where, "%.255s", path);
     if (status == FST_OK)
-        status = print_result(j, index, &measured, error);
+        status = print_result(j, index, error);
     if (status == FST_OK && option_value(j->given, "figure"))
-        status = draw_figure(j, &track, &measured, error);
-    if (status == FST_OK && to)
-        status = take_point(j, index, &measured, error);
+        status = draw_figure(j, &tracks[0], &j->found.beads[0], error);
+    for (int bead = 0; bead < count && status == FST_OK && to; ++bead)
+        if (!j->found.reasons[bead][0])
+            status = take_point(j, index, &j->found.beads[bead], error);
     free(understood);
-    fst_track_free(&track);
+    for (int bead = 0; bead < FST_TRACKED_BEADS; ++bead)
+        fst_track_free(&tracks[bead]);
     return status;
 }
 
 static fst_status write_points(job *j, const char *to, fst_error *error)
 {
-    const fst_points points = {.rows = j->rows, .count = (size_t)j->given->operand_count};
+    const fst_points points = {.rows = j->rows, .count = j->row_count};
     const fst_status status = fst_points_write(to, &points, error);
     if (status == FST_OK)
         tell_written(to, "");

@@ -72,7 +72,7 @@ static void count_frames(const fst_track *track, fst_measurement *measured)
     measured->lost = measured->frames - seen;
 }
 
-static void warn_of_frames(fst_measurement *measured)
+static void warn_of_frames(const fst_track *track, fst_measurement *measured)
 {
     const double frames = (double)measured->frames;
     if (measured->rejected > 0)
@@ -82,6 +82,15 @@ static void warn_of_frames(fst_measurement *measured)
         measure_warn(measured,
                      "%lld of %lld frames are lost: look at the film whether some part of the path is missing",
                      (long long)measured->lost, (long long)measured->frames);
+    size_t doubt = 0;
+    while (track->doubts && doubt < track->rows && track->doubts[doubt] == 0)
+        ++doubt;
+    if (track->doubts && doubt < track->rows)
+        measure_warn(
+            measured,
+            "from frame %lld on this may be another bead: their names may have been exchanged when they "
+            "met",
+            (long long)track->frame[doubt]);
     if ((double)measured->repeated > 0.02 * frames)
         measure_warn(measured,
                      "%lld frames repeat the one before exactly: the film was converted to another frame rate, "
@@ -247,7 +256,7 @@ fst_status fst_measure_track(fst_track *track, const fst_measure_options *option
     if (status == FST_OK) {
         count_frames(track, measured);
         measure_tell_settled(&work, measured);
-        warn_of_frames(measured);
+        warn_of_frames(track, measured);
         if (isnan(measured->fps))
             forget_rates(measured);
     }

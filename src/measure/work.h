@@ -6,12 +6,14 @@
  *   drive.c     the drive, the symmetry, whether the clock is right
  *   errors.c    what would have come out with other turns
  *   measure.c   these in their order, and what is said of them
+ *   pairs.c     the same of several beads, and the angles between them
  */
 #ifndef FST_MEASURE_WORK_H
 #define FST_MEASURE_WORK_H
 
 #include <festoon/festoon_tools.h>
 
+#include "io/json_writer.h"
 #include "measure/regress.h"
 
 enum { MEASURE_HARMONICS = FST_WAVE_LIMIT };
@@ -129,6 +131,9 @@ int measure_sharpen(measure_work *work);
 /* Fill in all means and errors. */
 fst_status measure_find_errors(const measure_work *work, const measure_drive *drive, fst_measurement *measured,
                                fst_error *error);
+
+/* The members of a measurement, into an object that is open. */
+void measure_write(fst_json *json, const fst_measurement *measured);
 
 void measure_warn(fst_measurement *measured, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

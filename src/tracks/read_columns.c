@@ -105,8 +105,8 @@ static fst_status take_row(reader *r)
     double doubts = NAN;
     if (status == FST_OK)
         status = fst_text_value(&r->table, &r->columns[DOUBTS], &doubts);
-    if (status == FST_OK && !(isnan(doubts) || (doubts >= 0.0 && doubts < 1e9)))
-        status = fst_text_fail_cell(&r->table, &r->columns[DOUBTS], NULL, "is no count");
+    if (status == FST_OK && !(isnan(doubts) || (doubts >= 0.0 && doubts < 1e9 && doubts == floor(doubts))))
+        status = fst_text_fail_cell(&r->table, &r->columns[DOUBTS], NULL, "is not a whole number from 0 on");
     spot.doubts = isnan(doubts) ? 0 : (int)doubts;
     if (status == FST_OK)
         status = track_raw_name(r->raw, name, &spot.track, r->table.error);

@@ -1,0 +1,153 @@
+"""Two to four beads: scene, run, `festoon movie --camera`, `festoon track --beads`, `festoon measure`, against the truth.
+
+Without ffmpeg the test is skipped.
+
+tests: follow/beads.c follow/split.c follow/learn.c follow/follow.c follow/overlay.c measure/pairs.c tracks/read.c
+labels: slow"""
+
+import itertools
+import json
+import math
+import sys
+import unittest
+
+import films
+from films import ffmpeg, run
+
+if not films.can_film():
+    sys.exit(77)
+
+#: Beads on their orbits, without attraction: two opposite each other, and two of which one goes past the other.
+OPPOSITE = "  - {start.phi: 3 deg}\n  - {start.phi: 183 deg}\n"
+PASSING = "  - {start.phi: 3 deg}\n  - {start.phi: 183 deg, bead.radius: 2.2 mm}\n"
+THREE = "".join(f"  - {{start.phi: {phi} deg}}\n" for phi in (3, 123, 243))
+FOUR = "".join(f"  - {{start.phi: {phi} deg}}\n" for phi in (3, 93, 183, 273))
+RUN = "model: {chi: 0.000001}\nrun: {periods: 36, discard: 20, samples: 64}\n"
+
+
+class Beads(films.OnFilms):
+    def filmed(self, name, beads, scene, options=(), settings=RUN):
+        """Track a film of a scene; returns names of columns, the rows of each bead, and its places in the truth."""
+        path = self.folder / name
+        path.with_suffix(".yaml").write_text("drive: {frequency: 10.7 Hz}\nbeads:\n" + scene + settings)
+        done = run("run", path.with_suffix(".yaml"), "-o", path.with_suffix(".h5"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        films.film(path.with_suffix(".h5"), path.with_suffix(".mp4"), "--size", "480x270", "--from", "20", *options)
+        done = run("track", path.with_suffix(".mp4"), "-o", path.with_suffix(".csv"), "--beads", beads)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.told = done.stdout
+        names, rows = films.read(path.with_suffix(".csv"))
+        truth = films.read(self.folder / f"{name}.truth.csv")[1]
+        tracks = [[row for row in rows if row[4] == k + 1] for k in range(beads)]
+        places = [[(row[4 + 4 * k], row[5 + 4 * k]) for row in truth] for k in range(beads)]
+        self.assertEqual([len(track) for track in tracks], [len(truth)] * beads)
+        return names, tracks, places
+
+    def agrees(self, tracks, places, rms=0.3):
+        """Each track is that of one bead in all frames; returns the permutation."""
+        def off(track, place):
+            pairs = [(r[2] - p[0], r[3] - p[1]) for r, p in zip(track, place)]
+            mean = [sum(pair[i] for pair in pairs) / len(pairs) for i in (0, 1)]
+            return math.sqrt(sum((x - mean[0]) ** 2 + (y - mean[1]) ** 2 for x, y in pairs) / 2 / len(pairs))
+
+        order = min(itertools.permutations(range(len(tracks))),
+                    key=lambda p: sum(math.dist(t[0][2:4], places[k][0]) for t, k in zip(tracks, p)))
+        for track, bead in zip(tracks, order):
+            self.assertLess(off(track, places[bead]), rms)
+        return order
+
+    def measured(self, name, *options):
+        done = run("measure", self.folder / f"{name}.csv", *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def test_two_opposite_each_other(self):
+        """The names go from the left to the right; the angle is 180 degrees, and they are one group."""
+        names, tracks, places = self.filmed("opposite", 2, OPPOSITE)
+        self.assertEqual(names, ["frame", "t [s]", "x [px]", "y [px]", "track", "doubts"])
+        self.assertLess(tracks[0][0][2], tracks[1][0][2])
+        self.agrees(tracks, places)
+        self.assertIn("lost        0\n", self.told)
+        self.assertIn("each bead has kept its name", self.told)
+        found = json.loads(self.measured("opposite", "--json"))
+        pair, = found["pairs"]
+        self.assertEqual((pair["pairing"], found["groups"], pair["beads"]), ("steady", [[1, 2]], [1, 2]))
+        self.assertLess(abs(abs(pair["angle_deg"]) - 180), 4 * pair["angle_deg_error"])
+        self.assertLess(abs(pair["drift_deg_s"]), 4 * pair["drift_deg_s_error"])
+        apart = [math.dist(a, b) for a, b in zip(*places)]
+        self.assertAlmostEqual(pair["mean_distance"] / (sum(apart) / len(apart)), 1, delta=0.01)
+        self.assertAlmostEqual(pair["least_distance"], min(apart), delta=1.5)
+        for bead in found["beads"]:
+            self.assertAlmostEqual(bead["drive_from_track_hz"], 10.7, delta=4 * bead["drive_from_track_hz_error"])
+        # One bead of the file alone is what it is among all, and a table of points has a row for each.
+        for name in "12":
+            alone = json.loads(self.measured("opposite", "--json", "--track", name))
+            self.assertEqual(alone, {k: v for k, v in found["beads"][int(name) - 1].items() if k != "reason"})
+        self.measured("opposite", "--scale", "0.5mm", "-o", self.folder / "points.csv")
+        self.assertEqual(len((self.folder / "points.csv").read_text().splitlines()), 3)
+        text = self.measured("opposite")
+        for words in ("opposite.csv, bead 2\n", "beads 1 and 2: the angle between them is steady", "groups"):
+            self.assertIn(words, text)
+        done = run("measure", self.folder / "opposite.csv", "--figure", self.folder / "f.svg")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("say which by --track", done.stderr)
+
+    def test_one_goes_past_the_other(self):
+        """They come as close as to touch in the picture, and keep their names."""
+        _, tracks, places = self.filmed("passing", 2, PASSING)
+        self.agrees(tracks, places)
+        self.assertLess(min(math.dist(a, b) for a, b in zip(*places)), 11)
+        self.assertIn("each bead has kept its name", self.told)
+        found = json.loads(self.measured("passing", "--json"))
+        self.assertEqual((found["pairs"][0]["pairing"], found["groups"]), ("passing", [[1], [2]]))
+        self.assertIsNone(found["pairs"][0]["angle_deg"])
+        rates = [bead["bead_frequency_hz"] for bead in found["beads"]]
+        self.assertGreater(abs(rates[0] - rates[1]), 0.3)
+
+    def test_names_that_are_uncertain_are_told(self):
+        """At 60 frames a second beads that pass each other closely cannot be told apart."""
+        _, tracks, _ = self.filmed("rough", 2, PASSING, ("--fps", "60"))
+        doubts = [row[5] for row in tracks[0]]
+        self.assertEqual(doubts, sorted(doubts))
+        self.assertGreater(doubts[-1], 0)
+        first = next(i for i, doubt in enumerate(doubts) if doubt)
+        self.assertIn(f"uncertain   from frame {first}, ", self.told)
+        found = json.loads(self.measured("rough", "--json"))
+        self.assertTrue(all(any(f"from frame {first} on this may be another bead" in w for w in bead["warnings"])
+                            for bead in found["beads"]))
+
+    def test_three_and_four(self):
+        _, tracks, places = self.filmed("three", 3, THREE)
+        self.agrees(tracks, places)
+        found = json.loads(self.measured("three", "--json"))
+        self.assertEqual((len(found["beads"]), len(found["pairs"])), (3, 3))
+        _, tracks, places = self.filmed("four", 4, FOUR, settings=RUN.replace("{per", "{method: stepping, per"))
+        self.agrees(tracks, places)
+
+    def test_what_cannot_be_followed(self):
+        """A number of beads that is not that of the film; a bead that rests."""
+        film = self.folder / "a.mp4"
+        self.refused(film, "--beads|integer from 1 to 4", "--beads", "5")
+        self.refused(film, "two beads were to be followed|fewer move", "--beads", "2")
+        ffmpeg("-i", film, "-vf", "drawbox=x=20:y=20:w=10:h=10:color=black:t=fill", self.folder / "rests.mp4")
+        self.refused(self.folder / "rests.mp4", "fewer move|one that rests", "--beads", "2")
+        ffmpeg("-i", film, "-filter_complex", "[0]split=3[b][c][d];[b][c][d]hstack=inputs=3", self.folder / "more.mp4")
+        self.refused(self.folder / "more.mp4", "three things|two beads were to be followed", "--beads", "2")
+        self.refused(self.folder / "more.mp4", "two things|say how many beads")
+
+    def test_tables_of_beads(self):
+        """A count that is none, and more beads than a film has, end in a sentence."""
+        head = "frame,t [s],x [mm],y [mm],track,doubts\n"
+        path = self.folder / "bad.csv"
+        path.write_text(head + "".join(f"{i},{i / 240},{i},1,1,-3\n" for i in range(4)))
+        done = run("measure", path)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("bad.csv:2: column 6 (doubts)", done.stderr)
+        path.write_text(head + "".join(f"{i},{i / 240},{i},{k},{k},0\n" for i in range(4) for k in range(5)))
+        done = run("measure", path)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("there are 5 tracks", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
