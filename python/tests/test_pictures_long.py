@@ -97,6 +97,23 @@ def test_film_and_track(samples, tmp_path):
     assert np.allclose(fs.read_track(tmp_path / "track.csv").x, track.x, atol=1e-3)
 
 
+def test_tracks_of_two_beads(program, tmp_path):
+    """A list of tracks, each that of the file which the program writes of the same film."""
+    needs("ffmpeg")
+    pair = fs.Beads(beads=[{"start__phi": 3}, {"start__phi": 183}], run__periods=8, run__discard=2, run__samples=64)
+    pair.save(tmp_path / "pair.yaml")
+    for words in (("run", "pair.yaml", "-o", "pair.h5"), ("movie", "pair.h5", "-o", "pair.mp4", "--camera", "--size", "320x240"),
+                  ("track", "pair.mp4", "-o", "pair.csv", "--beads", "2")):
+        subprocess.run([program, *words], cwd=tmp_path, check=True, capture_output=True)
+    seen = fs.track(tmp_path / "pair.mp4", beads=2)
+    assert len(seen) == 2 and seen[0].report["beads"] == 2 and seen[0].report["doubts"] == []
+    for name, one in zip("12", seen):
+        read = fs.read_track(tmp_path / "pair.csv", name=name)
+        assert np.allclose(read.x, one.x) and np.array_equal(read.doubts, one.doubts) and len(one) > 100
+    with pytest.raises(fs.BadInput, match="1 to 4"):
+        fs.track(tmp_path / "pair.mp4", beads=5)
+
+
 def test_notebook_bar(monkeypatch):
     """In a kernel the bar is HTML, and is gone at the end."""
     display = pytest.importorskip("IPython.display")

@@ -18,7 +18,7 @@ enum { PARTS = 8 };
 #define DEGREES (180.0 / FST_PI)
 #define LEAST_TURNS 3.0
 #define RIGID 0.65 /* of the mean distance is the least one of beads that stay together */
-#define SURE 3.7  /* errors of eight means: beyond so many lies one in a hundred */
+#define SURE 3.7   /* errors of eight means: beyond so many lies one in a hundred */
 
 const char *fst_pairing_name(fst_pairing pairing)
 {

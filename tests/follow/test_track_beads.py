@@ -12,6 +12,7 @@ import sys
 import unittest
 
 import films
+import tracks as made
 from films import ffmpeg, run
 
 if not films.can_film():
@@ -134,6 +135,46 @@ class Beads(films.OnFilms):
         ffmpeg("-i", film, "-filter_complex", "[0]split=3[b][c][d];[b][c][d]hstack=inputs=3", self.folder / "more.mp4")
         self.refused(self.folder / "more.mp4", "three things|two beads were to be followed", "--beads", "2")
         self.refused(self.folder / "more.mp4", "two things|say how many beads")
+
+    def test_angles_by_formula(self):
+        """Tracks that are turned against each other: by a constant angle, by one that grows, and by one that goes round.
+        The sign is that from the first bead to the second, counter-clockwise."""
+        for drift, pairing in ((0, "steady"), (3, "drifting"), (-400, "passing")):
+            first, second = made.places(seed=1), made.places(seed=2)
+            lines = ["frame,t [s],x [mm],y [mm],track,doubts"]
+            for i, ((x, y), (p, q)) in enumerate(zip(first, second)):
+                turn = math.radians(70 + drift * i / 240)
+                p, q = p * math.cos(turn) - q * math.sin(turn), p * math.sin(turn) + q * math.cos(turn)
+                lines += [f"{i},{i / 240},{100 + x},{50 + y},1,0", f"{i},{i / 240},{100 + p},{50 + q},2,0"]
+            (self.folder / "made.csv").write_text("\n".join(lines) + "\n")
+            found = json.loads(self.measured("made", "--json"))
+            pair, = found["pairs"]
+            self.assertEqual((pair["pairing"], found["groups"]), (pairing, [[1, 2]] if drift == 0 else [[1], [2]]))
+            self.assertLess(abs(pair["drift_deg_s"] - drift), max(4 * pair["drift_deg_s_error"], 1e-3 * abs(drift)))
+            self.assertLess(pair["drift_deg_s_error"], 1)
+            if drift == 0:
+                self.assertLess(abs(pair["angle_deg"] - 70), 4 * pair["angle_deg_error"])
+                self.assertLess(pair["angle_deg_error"], 0.1)
+            elif drift == 3:
+                self.assertAlmostEqual(pair["angle_deg"], 76, delta=0.2)
+
+    def test_beads_that_turn_about_each_other(self):
+        """What r oscillates with is their own turning: it is not taken for festoons, nor for the drive."""
+        lines = ["frame,t [s],x [mm],y [mm],track,doubts"]
+        for i in range(960):
+            centre, axis = -2 * math.pi * 3.1 * i / 240, 2 * math.pi * 10.3 * i / 240
+            for k, way in ((1, 1), (2, -1)):
+                x = 20 * math.cos(centre) + 2.5 * way * math.cos(axis)
+                y = 20 * math.sin(centre) + 2.5 * way * math.sin(axis)
+                lines.append(f"{i},{i / 240},{x:.4f},{y:.4f},{k},0")
+        (self.folder / "walker.csv").write_text("\n".join(lines) + "\n")
+        found = json.loads(self.measured("walker", "--json"))
+        self.assertAlmostEqual(found["pairs"][0]["mean_distance"], 5, places=2)
+        for bead in found["beads"]:
+            self.assertIsNone(bead["drive_from_track_hz"])
+            self.assertIsNone(bead["festoons"])
+            self.assertIn("stay together", " ".join(bead["warnings"]))
+            self.assertAlmostEqual(bead["bead_frequency_hz"], -3.1, delta=0.01)
 
     def test_tables_of_beads(self):
         """A count that is none, and more beads than a film has, end in a sentence."""
