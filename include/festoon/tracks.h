@@ -156,6 +156,8 @@ typedef struct fst_beads_measurement {
     int count, pair_count;
     fst_measurement beads[FST_TRACKED_BEADS];
     char reasons[FST_TRACKED_BEADS][FST_WARNING_SIZE]; /* why a bead was not measured: it rests, ...; "" */
+    int64_t
+        uncertain_from[FST_TRACKED_BEADS]; /* the first frame from which on it may be another bead; -1: none */
     fst_pair pairs[FST_TRACKED_PAIRS];
     int groups
         [FST_TRACKED_BEADS]; /* of each bead: the first one with which it orbits, the angle being steady */

@@ -72,6 +72,14 @@ static void count_frames(const fst_track *track, fst_measurement *measured)
     measured->lost = measured->frames - seen;
 }
 
+int64_t measure_first_doubt(const fst_track *track)
+{
+    for (size_t i = 0; i < track->rows && track->doubts; ++i)
+        if (track->doubts[i] > 0)
+            return track->frame[i];
+    return -1;
+}
+
 static void warn_of_frames(const fst_track *track, fst_measurement *measured)
 {
     const double frames = (double)measured->frames;
@@ -82,15 +90,12 @@ static void warn_of_frames(const fst_track *track, fst_measurement *measured)
         measure_warn(measured,
                      "%lld of %lld frames are lost: look at the film whether some part of the path is missing",
                      (long long)measured->lost, (long long)measured->frames);
-    size_t doubt = 0;
-    while (track->doubts && doubt < track->rows && track->doubts[doubt] == 0)
-        ++doubt;
-    if (track->doubts && doubt < track->rows)
+    const int64_t doubt = measure_first_doubt(track);
+    if (doubt >= 0)
         measure_warn(
             measured,
-            "from frame %lld on this may be another bead: their names may have been exchanged when they "
-            "met",
-            (long long)track->frame[doubt]);
+            "from frame %lld on this may be another bead: their names may have been exchanged when they met",
+            (long long)doubt);
     if ((double)measured->repeated > 0.02 * frames)
         measure_warn(measured,
                      "%lld frames repeat the one before exactly: the film was converted to another frame rate, "

@@ -241,6 +241,7 @@ fst_status fst_measure_tracks(fst_track *tracks, int count, const fst_measure_op
                 *error = said;
             return status;
         }
+        m->uncertain_from[m->count] = measure_first_doubt(&tracks[m->count]);
         measured += status == FST_OK;
         first = status != FST_OK && !first.sentence[0] ? said : first;
         if (status != FST_OK)
@@ -298,6 +299,8 @@ char *fst_beads_measurement_json(const fst_beads_measurement *m)
         fst_json_open(&json, NULL, '{');
         measure_write(&json, &m->beads[i]);
         fst_json_text(&json, "reason", m->reasons[i][0] ? m->reasons[i] : NULL);
+        fst_json_real(&json, "uncertain_from_frame",
+                      m->uncertain_from[i] < 0 ? NAN : (double)m->uncertain_from[i]);
         fst_json_close(&json);
     }
     fst_json_close(&json);

@@ -132,6 +132,9 @@ int measure_sharpen(measure_work *work);
 fst_status measure_find_errors(const measure_work *work, const measure_drive *drive, fst_measurement *measured,
                                fst_error *error);
 
+/* The first frame from which on a track may be that of another bead; -1: there is none. */
+int64_t measure_first_doubt(const fst_track *track);
+
 /* The members of a measurement, into an object that is open. */
 void measure_write(fst_json *json, const fst_measurement *measured);
 

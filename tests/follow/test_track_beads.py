@@ -83,7 +83,7 @@ class Beads(films.OnFilms):
         # One bead of the file alone is what it is among all, and a table of points has a row for each.
         for name in "12":
             alone = json.loads(self.measured("opposite", "--json", "--track", name))
-            self.assertEqual(alone, {k: v for k, v in found["beads"][int(name) - 1].items() if k != "reason"})
+            self.assertEqual(alone, {k: v for k, v in found["beads"][int(name) - 1].items() if k not in ("reason", "uncertain_from_frame")})
         self.measured("opposite", "--scale", "0.5mm", "-o", self.folder / "points.csv")
         self.assertEqual(len((self.folder / "points.csv").read_text().splitlines()), 3)
         text = self.measured("opposite")
@@ -114,6 +114,7 @@ class Beads(films.OnFilms):
         first = next(i for i, doubt in enumerate(doubts) if doubt)
         self.assertIn(f"uncertain   from frame {first}, ", self.told)
         found = json.loads(self.measured("rough", "--json"))
+        self.assertEqual([bead["uncertain_from_frame"] for bead in found["beads"]], [first, first])
         self.assertTrue(all(any(f"from frame {first} on this may be another bead" in w for w in bead["warnings"])
                             for bead in found["beads"]))
 
