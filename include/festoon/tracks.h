@@ -138,7 +138,7 @@ typedef enum { FST_PAIRINGS(FST_ROW_ENUM) FST_PAIRING_COUNT } fst_pairing;
 FST_API const char *fst_pairing_name(fst_pairing pairing);
 
 /* Two beads of one film.  The angle is that from the first to the second one about the common centre, on the plate,
- * counter-clockwise in the film.  NAN: unknown, or without a meaning. */
+ * counter-clockwise in the film.  NAN: unknown, or without a meaning; errors of less than eight turns. */
 typedef struct fst_pair {
     int beads[2];                          /* from 0 */
     double angle_deg, angle_deg_error;     /* its mean, -180 to 180; NAN where one bead goes past the other */

@@ -5,6 +5,8 @@
 #include "cli/command.h"
 #include "cli/terminal.h"
 
+enum { SHOWN_DOUBTS = 8 };
+
 static const option options[] = {
     {"output", 'o', "TRACK.csv",
      "columns frame,t [s],x [mm],y [mm] (px without a scale), a row a frame; y points up"},
@@ -61,15 +63,15 @@ static void print_names(const fst_film_track_report *r, FILE *out)
                   r->beads);
     if (r->doubt_count == 0)
         (void)fputs("            each bead has kept its name\n", out);
-    for (int i = 0; i < r->doubt_count && i < FST_NAME_DOUBTS; ++i) {
+    for (int i = 0; i < r->doubt_count && i < SHOWN_DOUBTS; ++i) {
         (void)fprintf(out, "uncertain   from frame %d, %.6g s, the names", r->doubts[i].frame, r->doubts[i].t);
         for (int bead = 0, told = 0; bead < r->beads; ++bead)
             if (r->doubts[i].beads >> bead & 1)
                 (void)fprintf(out, "%s %d", told++ > 0 ? " and" : "", bead + 1);
         (void)fputs(" may be exchanged\n", out);
     }
-    if (r->doubt_count > FST_NAME_DOUBTS)
-        (void)fprintf(out, "            and %d times more\n", r->doubt_count - FST_NAME_DOUBTS);
+    if (r->doubt_count > SHOWN_DOUBTS)
+        (void)fprintf(out, "            and %d times more\n", r->doubt_count - SHOWN_DOUBTS);
 }
 
 static void print_report(const fst_film_track_report *r, int by_bead, FILE *out)

@@ -2,7 +2,8 @@
  *
  * The angle is that from one bead to the other about their common centre, on the plate, without the tilt of the camera.
  * Its mean in each of eight parts of the film gives its drift; how much these means scatter about a straight line gives the
- * errors, so that what the beads do within a turn is allowed for.
+ * errors, so that what the beads do within a turn is allowed for.  The middle of a part counts most: of an oscillation that a
+ * part cuts off somewhere the mean is then next to nothing.
  */
 #include "measure/work.h"
 
@@ -16,9 +17,10 @@
 enum { PARTS = 8 };
 
 #define DEGREES (180.0 / FST_PI)
-#define LEAST_TURNS 3.0
-#define RIGID 0.65 /* of the mean distance is the least one of beads that stay together */
-#define SURE 3.7   /* errors of eight means: beyond so many lies one in a hundred */
+#define LEAST_TURNS 8.0 /* what an error of the centre does is not gone from parts of less than a turn */
+#define STUDENT 1.09    /* errors of eight means about a straight line, to those of many */
+#define RIGID 0.65      /* of the mean distance is the least one of beads that stay together */
+#define SURE 3.7        /* errors of eight means: beyond so many lies one in a hundred */
 
 const char *fst_pairing_name(fst_pairing pairing)
 {
@@ -30,7 +32,7 @@ typedef struct pair_work {
     const fst_track *tracks[2];
     const fst_measurement *known[2];    /* NULL: not measured */
     double centre[2], stretch[3], from; /* the first moment that counts */
-    double sums[PARTS][3];              /* number, time and angle of each part */
+    double sums[PARTS][3];              /* weight, time and angle of each part */
     double begin, end;                  /* s, or frames */
 } pair_work;
 
@@ -113,10 +115,11 @@ static void look_at_angle(pair_work *w, fst_pair *pair)
         double angle = atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
         angle += FST_TWO_PI * floor((before - angle) / FST_TWO_PI + 0.5) * (n > 0.0);
         before = angle;
-        const int part = (int)fmin(PARTS - 1, floor(PARTS * (t - w->begin) / (w->end - w->begin)));
-        w->sums[part][0] += 1.0;
-        w->sums[part][1] += t;
-        w->sums[part][2] += angle;
+        const double place = PARTS * (t - w->begin) / (w->end - w->begin), sine = sin(FST_PI * place);
+        const int part = (int)fmin(PARTS - 1, floor(place));
+        const double sums[3] = {sine * sine, sine * sine * t, sine * sine * angle};
+        for (int k = 0; k < 3; ++k)
+            w->sums[part][k] += sums[k];
         n += 1.0;
         squares += (n - 1.0) / n * (angle - sum) * (angle - sum);
         sum += (angle - sum) / n;
@@ -149,21 +152,23 @@ static void find_drift(const pair_work *w, double turns, fst_pair *pair)
         off += rest * rest;
         scatter += (means[i][1] - angle) * (means[i][1] - angle);
     }
-    const double error = sqrt(off / (PARTS - 2) / tt);
+    const double error = STUDENT * sqrt(off / (PARTS - 2) / tt);
     pair->pairing = fabs(slope) <= SURE * error && fabs(whole) < FST_PI ? FST_PAIRING_STEADY
                     : fabs(whole) < FST_TWO_PI                          ? FST_PAIRING_DRIFTING
                                                                         : FST_PAIRING_PASSING;
     pair->drift_deg_s = DEGREES * slope;
     pair->drift_deg_s_error = DEGREES * error;
     if (turns < LEAST_TURNS) {
-        pair->pairing = FST_PAIRING_UNKNOWN;
+        if (pair->pairing != FST_PAIRING_PASSING)
+            pair->pairing = FST_PAIRING_UNKNOWN;
         pair->drift_deg_s_error = NAN;
-        (void)snprintf(pair->reason, sizeof pair->reason, "the beads make less than three turns");
+        (void)snprintf(pair->reason, sizeof pair->reason, "the beads make less than eight turns");
     }
     if (pair->pairing !=
         FST_PAIRING_PASSING) { /* of a bead that goes past the other one an angle has no mean */
         pair->angle_deg = DEGREES * remainder(angle, FST_TWO_PI);
-        pair->angle_deg_error = turns < LEAST_TURNS ? NAN : DEGREES * sqrt(scatter / (PARTS - 1) / PARTS);
+        pair->angle_deg_error =
+            turns < LEAST_TURNS ? NAN : STUDENT * DEGREES * sqrt(scatter / (PARTS - 1) / PARTS);
     }
 }
 
