@@ -75,7 +75,7 @@ static void count_frames(const fst_track *track, fst_measurement *measured)
 int64_t measure_first_doubt(const fst_track *track)
 {
     for (size_t i = 0; i < track->rows && track->doubts; ++i)
-        if (track->doubts[i] > 0)
+        if (track->doubts[i] > track->doubts[0])
             return track->frame[i];
     return -1;
 }

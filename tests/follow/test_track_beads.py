@@ -206,6 +206,16 @@ class Beads(films.OnFilms):
             self.assertIn("stay together", " ".join(bead["warnings"]))
             self.assertAlmostEqual(bead["bead_frequency_hz"], -3.1, delta=0.01)
 
+    def test_frames_between_two_doubts(self):
+        """In a part of the film without a doubt a track is that of one bead, whichever it is."""
+        lines = ["frame,t [s],x [mm],y [mm],track,doubts"]
+        for i, (x, y) in enumerate(made.places()):
+            lines += [f"{i},{i / 240},{sign * x},{sign * y},{k},{i // 480}" for k, sign in ((1, 1), (2, -1))]
+        (self.folder / "parts.csv").write_text("\n".join(lines) + "\n")
+        for options, first in (((), 480), (("--to", "479"), None), (("--from", "480"), None)):
+            found = json.loads(self.measured("parts", "--json", *options))
+            self.assertEqual([bead["uncertain_from_frame"] for bead in found["beads"]], [first, first])
+
     def test_tables_of_beads(self):
         """A count that is none, and more beads than a film has, end in a sentence."""
         head = "frame,t [s],x [mm],y [mm],track,doubts\n"
