@@ -10,6 +10,7 @@ import hashlib
 import io
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -106,11 +107,25 @@ def _version():
     return ".".join(numbers[f"FST_VERSION_{part}"] for part in ("MAJOR", "MINOR", "PATCH"))
 
 
+def _is_finished(folder):
+    """Whether `make` has built the package of these sources there, with its own settings.  The module is of Python's
+    stable interface, so that it serves every Python that gets this far."""
+    try:
+        cache = dict(re.findall(r"^(\w+):\w+=(.*)$", (folder / "CMakeCache.txt").read_text(encoding="utf-8"), re.M))
+    except OSError:
+        return False
+    wanted = {"CMAKE_HOME_DIRECTORY": str(ROOT), "CMAKE_BUILD_TYPE": "Release", "FESTOON_SANITIZE": "", "CMAKE_C_FLAGS": ""}
+    module = folder / "python/festoon/_festoon.abi3.so"
+    return all(cache.get(key, "") == value for key, value in wanted.items()) and os.access(module, os.W_OK)
+
+
 @contextlib.contextmanager
-def _build_folder():
-    """Where the package is built: build-python among the sources, so that building again is quick; a folder that
-    goes again where the sources cannot be written to."""
-    if os.access(ROOT, os.W_OK):
+def _build_folder(settings):
+    """Where the package is built: what `make` has left in build; else build-python among the sources, so that building
+    again is quick; a folder that goes again where the sources cannot be written to."""
+    if not settings and _is_finished(ROOT / "build"):
+        yield ROOT / "build"
+    elif os.access(ROOT, os.W_OK):
         yield ROOT / "build-python"
     else:
         with tempfile.TemporaryDirectory(prefix="festoon-build-") as folder:
@@ -125,10 +140,9 @@ def _cmake(folder, settings):
     options += [given] if isinstance(given, str) else given
     if shutil.which("ninja") and not (folder / "CMakeCache.txt").exists():
         options += ["-G", "Ninja"]
-    for command in (
-        ["cmake", "-S", str(ROOT), "-B", str(folder), "--log-level=WARNING", *options],
-        ["cmake", "--build", str(folder), "--target", "festoon_python_package", "-j", str(os.cpu_count() or 1)],
-    ):
+    configure = ["cmake", "-S", str(ROOT), "-B", str(folder), "--log-level=WARNING", *options]
+    build = ["cmake", "--build", str(folder), "--target", "festoon_python_package", "-j", str(os.cpu_count() or 1)]
+    for command in [build] if folder == ROOT / "build" else [configure, build]:
         if subprocess.run(command, stdout=sys.stderr, check=False).returncode:
             raise CannotBuild(f"{' '.join(command[:2])} failed: its words are above")
     return folder / "python" / "festoon"
@@ -203,7 +217,7 @@ class _Wheel:
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    with _build_folder() as build:
+    with _build_folder(config_settings) as build:
         package = _cmake(build, config_settings)
         wheel = _Wheel(wheel_directory)
         for path in sorted(package.iterdir()):

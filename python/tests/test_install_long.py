@@ -73,6 +73,15 @@ def test_source_distribution_editable_and_wheel(venv, tmp_path):
     assert not left
 
 
+@pytest.mark.skipif(pathlib.Path(os.environ.get("BUILD_DIR", "")) != SOURCE / "build", reason="built elsewhere")
+def test_what_make_has_built_is_not_built_again(venv, tmp_path):
+    """Where `make` has built these sources pip only packs them."""
+    said = quiet(str(venv), *PIP, "-v", "wheel", "--no-index", "--no-deps", "-w", str(tmp_path), str(SOURCE))
+    assert "no work to do" in said or "Building C object" not in said
+    quiet(str(venv), *PIP, "install", "--no-index", str(next(tmp_path.glob("festoon-*-abi3-*.whl"))))
+    expect(venv, tmp_path / "venv", tmp_path)
+
+
 def backend(code, **environment):
     """What the backend says, called as pip calls it."""
     return subprocess.run(
