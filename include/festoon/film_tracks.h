@@ -12,14 +12,16 @@ extern "C" {
 /* How a film is tracked.  What stays as fst_default_film_track_options() makes it follows from the film. */
 typedef struct fst_film_track_options {
     uint32_t cookie;
-    double fps;          /* frames a second, instead of the film's clock; NAN: that clock */
-    const char *scale;   /* "bead 5 mm", "plate 460 mm", "X1,Y1:X2,Y2=50mm", four points; NULL: pixels */
-    double distance;     /* m from the camera to the plate, by which the bead's height over the plate is
+    double fps; /* frames a second, instead of the film's clock; NAN: that clock */
+    const char
+        *scale;      /* "bead 5 mm", "plate 460 mm", "X1,Y1:X2,Y2=50mm", four points, or several with ; between
+                            them, which are compared, and of which the first is taken; NULL: pixels */
+    double distance; /* m from the camera to the plate, by which the bead's height over the plate is
                             allowed for; NAN: it is not */
-    int beads;           /* how many are followed, 1 to FST_TRACKED_BEADS */
-    const char *csv;     /* the tracks as a file, festoon\'s own CSV; NULL: none */
-    const char *overlay; /* a film, .mp4 or .mov, that shows what was found; NULL: none */
-    const char *picture; /* a picture, .png, of the same, also where no scale was found; NULL: none */
+    int beads;       /* how many are followed, 1 to FST_TRACKED_BEADS */
+    const char *csv; /* the tracks as a file, festoon\'s own CSV; NULL: none */
+    const char *overlay;          /* a film, .mp4 or .mov, that shows what was found; NULL: none */
+    const char *picture;          /* a picture, .png, of the same, also where no scale was found; NULL: none */
     const fst_progress *progress; /* NULL: nobody is told */
 } fst_film_track_options;
 FST_API fst_film_track_options fst_default_film_track_options(void);
@@ -31,6 +33,14 @@ typedef struct fst_plate_edge {
     double share;       /* of the ellipse, along which there is an edge */
     double contrast;    /* the mean step of brightness there, gray levels */
 } fst_plate_edge;
+
+/* A scale that was given. */
+enum { FST_FILM_SCALES = 4, FST_FILM_SCALE_TEXT = 64 };
+typedef struct fst_film_scale {
+    char text[FST_FILM_SCALE_TEXT];
+    double value; /* mm a pixel in the middle of the path, in the direction that no tilt foreshortens */
+    double error; /* a standard deviation, relative */
+} fst_film_scale;
 
 /* A frame from which on beads may have exchanged their names: each could be where another one was found. */
 typedef struct fst_name_doubt {
@@ -47,10 +57,16 @@ typedef struct fst_film_track_report {
     int first_lost, missing; /* the first lost frame (-1: none); frames that the clock leaves room for */
     double fps, least_step, most_step; /* mean frames a second; shortest and longest time between frames, s */
     double tick;                       /* of the film's clock, s; 0: unknown */
-    double diameter, noise,
-        contrast;     /* of the bead, pixels; of a pixel, gray levels; of the bead, gray levels */
-    double jitter;    /* pixels by which places scatter about a smooth path; NAN: too few frames */
-    double scale;     /* mm a pixel in the middle of the path; NAN: no scale */
+    double diameter, diameter_error;   /* of the bead without its shadow, pixels */
+    double shadow;                     /* how dark its shadow is, in parts of its contrast; 0: there is none */
+    double noise, contrast;            /* of a pixel, gray levels; of the bead, gray levels */
+    double
+        shake; /* pixels that the camera moved, rms; the track is on the plate, without it; 0: it stood still */
+    double jitter;      /* pixels by which places scatter about a smooth path; NAN: too few frames */
+    double scale;       /* mm a pixel in the middle of the path; NAN: no scale */
+    double scale_error; /* its relative error, a standard deviation */
+    fst_film_scale scales[FST_FILM_SCALES]; /* all that were given, the first being the one taken */
+    int scale_count;
     double plate[2];  /* the longer and the shorter diameter of the plate's edge, pixels; NAN: not asked */
     double rim_error; /* how far its points are from the ellipse, pixels */
     /* Edges that may be the plate's, the steepest first: of these the outermost is taken that is at least a quarter as steep

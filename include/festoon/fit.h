@@ -27,7 +27,10 @@ FST_API fst_unit fst_measured_unit(fst_measured what);
 typedef struct fst_point {
     double frequency, frequency_error; /* of the drive, Hz; the error is NAN where it is not known */
     double value[FST_MEASURED_COUNT], error[FST_MEASURED_COUNT]; /* both or neither; errors are positive */
-    int line;                                                    /* in the file, from 1 */
+    double
+        scale_error; /* relative, of the scale that all lengths share, of all rows: a fit takes them for wrong by the
+                           same number of these deviations; NAN or 0: there is none */
+    int line;        /* in the file, from 1 */
 } fst_point;
 
 /* Begin with {0}; free with fst_points_free(). */

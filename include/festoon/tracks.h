@@ -33,8 +33,11 @@ typedef struct fst_track {
     unsigned char *flag; /* fst_frame_flag */
     int *doubts;         /* how often until here the bead may have exchanged its name with another one's */
     char length_unit[FST_LENGTH_UNIT_SIZE]; /* "px", or a unit of params.def: "mm" */
-    double fps; /* frames a second: of the file's clock, or as it was given; NAN: unknown */
-    int steady; /* the times are those of a clock of constant frame rate, up to the digits written */
+    double
+        scale_error; /* relative standard deviation of the length of a pixel, which all lengths share; 0: unknown,
+                           or none */
+    double fps;      /* frames a second: of the file's clock, or as it was given; NAN: unknown */
+    int steady;      /* the times are those of a clock of constant frame rate, up to the digits written */
 } fst_track;
 
 FST_API void fst_track_free(fst_track *track);
@@ -43,7 +46,8 @@ FST_API void fst_track_free(fst_track *track);
 FST_API fst_status fst_track_append(fst_track *track, int64_t frame, double t, double x, double y,
                                     fst_error *error);
 
-/* Write a track as festoon's own CSV, whole or not at all: columns `frame,t [s],x [mm],y [mm]` with the track's
+/* Write a track as festoon's own CSV, whole or not at all: where the scale has an error, a comment
+ * `# scale_error: 0.004`; columns `frame,t [s],x [mm],y [mm]` with the track's
  * unit of length, a row a frame, empty cells where the bead was lost.  Rejected places are written as they are.
  * Without a clock there is no column `t [s]`. */
 FST_API fst_status fst_track_write(const char *path, const fst_track *track, fst_error *error);
@@ -60,6 +64,7 @@ typedef struct fst_track_options {
     const char *name;       /* which track of several: its name, number or id; NULL: the longest */
     double fps;             /* frames a second, instead of the file's clock; NAN: that clock */
     double scale;           /* metres that one unit of length of the file is; NAN: as the file says */
+    double scale_error;     /* its relative standard deviation; 0: none, or unknown */
     const char *scale_unit; /* the unit in which the track is wanted then ("mm"); NULL: "mm" */
     double from, to;        /* the first and the last frame that are taken, by the file's numbers; NAN: all */
 } fst_track_options;

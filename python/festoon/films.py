@@ -55,8 +55,8 @@ def camera(samples: Any, path: Path, truth: Optional[Path], progress: Progress, 
 def track(film: Path, *, beads: int = 1, progress: Progress = None, **given: Any) -> Any:
     """Find the bead in every frame of a film: a `Track`, whose `report` says what is known of the film.
 
-    Options: fps, scale ("bead 5 mm", "plate 460 mm", "X1,Y1:X2,Y2=50mm"), distance, and the files csv, overlay,
-    picture.
+    Options: fps, scale ("bead 5 mm", "plate 460 mm", "X1,Y1:X2,Y2=50mm", or several with ; between them), distance, and
+    the files csv, overlay, picture.
 
     Parameters
     ----------
@@ -99,6 +99,7 @@ def track(film: Path, *, beads: int = 1, progress: Progress = None, **given: Any
     del kept
     facts = _facts(report)
     facts["edges"] = facts["edges"][: report.edge_count]
+    facts["scales"] = facts["scales"][: report.scale_count]
     facts["doubts"] = facts["doubts"][: report.doubt_count]
     made = []
     for i in range(beads):

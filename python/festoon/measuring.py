@@ -23,20 +23,21 @@ Path = Union[str, "os.PathLike[str]"]
 COLUMNS = {"frame": "int64_t", "t": "double", "x": "double", "y": "double", "flag": "unsigned char", "doubts": "int"}
 
 
-def _struct_of(columns: Mapping[str, Any], length_unit: str, fps: float, steady: bool) -> Any:
+def _struct_of(columns: Mapping[str, Any], length_unit: str, fps: float, steady: bool, scale_error: float) -> Any:
     """A track of the library over arrays of numpy, which live as long as it."""
     made = ffi.new("fst_track *")
     for name, kind in COLUMNS.items():
         setattr(made, name, ffi.from_buffer(f"{kind}[]", columns[name]))
     made.rows = made.capacity = len(columns["frame"])
     made.length_unit, made.fps, made.steady = length_unit.encode(), fps, steady
+    made.scale_error = scale_error
     return ffi.gc(made, lambda _, kept=(made, columns): None)
 
 
 def _track_again(
-    columns: Mapping[str, Any], length_unit: str, fps: float, steady: bool, understood: str, report: Any
+    columns: Mapping[str, Any], length_unit: str, fps: float, steady: bool, scale_error: float, understood: str, report: Any
 ) -> "Track":
-    made = Track._of(_struct_of(columns, length_unit, fps, steady), understood)
+    made = Track._of(_struct_of(columns, length_unit, fps, steady, scale_error), understood)
     made.report = report
     return made
 
@@ -117,16 +118,24 @@ class Track:
         """Frames a second [Hz]."""
         return float(self._track.fps)
 
+    @property
+    def scale_error(self) -> float:
+        """Relative error of the scale, by which all lengths are wrong alike; 0: none, or unknown."""
+        return float(self._track.scale_error)
+
     def __len__(self) -> int:
         return int(self._track.rows)
 
     def _columns(self) -> Dict[str, Any]:
         return {name: getattr(self, name).copy() for name in COLUMNS}
 
+    def _clock(self) -> Tuple[str, float, bool, float]:
+        return self.length_unit, self.fps, bool(self._track.steady), self.scale_error
+
     def _copy(self) -> Tuple[Any, Dict[str, Any]]:
         """The track once more, for a call that may reject rows of it and be interrupted, and its arrays."""
         columns = self._columns()
-        return _struct_of(columns, self.length_unit, self.fps, bool(self._track.steady)), columns
+        return _struct_of(columns, *self._clock()), columns
 
     def _take(self, copy: Any, columns: Mapping[str, Any]) -> None:
         """What a call has changed of a copy; the arrays of this track stay where they are."""
@@ -135,13 +144,13 @@ class Track:
         self._track.fps, self._track.steady = copy.fps, copy.steady
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        facts = (self.length_unit, self.fps, bool(self._track.steady), self.understood, self.report)
+        facts = (*self._clock(), self.understood, self.report)
         return _track_again, (self._columns(), *facts)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Track):
             return NotImplemented
-        facts = [(t.length_unit, t.understood, t.report, len(t)) for t in (self, other)]
+        facts = [(t.length_unit, t.scale_error, t.understood, t.report, len(t)) for t in (self, other)]
         return facts[0] == facts[1] and all(
             np.array_equal(getattr(self, name), getattr(other, name), equal_nan=name in ("t", "x", "y"))
             for name in COLUMNS

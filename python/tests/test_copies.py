@@ -22,7 +22,7 @@ def track(tmp_path_factory):
     rows = np.column_stack([lab.t, lab.x + noise[0], lab.y + noise[1]])
     rows[100, 1] += 30
     path = tmp_path_factory.mktemp("track") / "track.csv"
-    np.savetxt(path, rows, delimiter=",", header="t [s],x [mm],y [mm]", comments="")
+    np.savetxt(path, rows, delimiter=",", header="# scale_error: 0.004\nt [s],x [mm],y [mm]", comments="")
     return path
 
 

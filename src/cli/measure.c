@@ -17,7 +17,8 @@ static const option options[] = {
     {"fps", '\0', "F", "frames a second, instead of the file's clock"},
     {"from", '\0', "FRAME", "the first frame that is taken, by the track's own numbers"},
     {"to", '\0', "FRAME", "the last one"},
-    {"scale", '\0', "0.123mm", "the length of one unit of the file (of a pixel, mostly)"},
+    {"scale", '\0', "0.123mm",
+     "the length of one unit of the file (of a pixel, mostly); 0.123+-0.001mm: with its error"},
     {"format", '\0', "NAME", "the file's format, instead of what its header says"},
     {"track", '\0', "NAME", "which track of several (otherwise the longest, or of track --beads all)"},
     {"exposure", '\0', "2ms", "how long a frame was exposed: what that blurs is corrected"},
@@ -37,8 +38,16 @@ static fst_status read_unit(const char *name, const char *text, fst_unit unit, d
 static fst_status read_scale(const char *text, fst_track_options *how, char unit[FST_LENGTH_UNIT_SIZE],
                              fst_error *error)
 {
-    char *end;
+    char *end, plain[80];
     const double number = strtod(text, &end);
+    if (end != text && strncmp(end, "+-", 2) == 0) { /* the error, and then the length without it */
+        const char *from = end + 2;
+        how->scale_error = strtod(from, &end) / number;
+        if (end == from || !(how->scale_error > 0.0 && how->scale_error < 1.0))
+            return fail(error, FST_BAD_INPUT, "--scale", "\"%.40s\": write it as 0.123+-0.001mm", text);
+        (void)snprintf(plain, sizeof plain, "%.17g %.40s", number, end);
+        return read_scale(plain, how, unit, error);
+    }
     end += strspn(end, " ");
     if (end != text && (strcmp(end, "px") == 0)) {
         how->scale = number;
@@ -82,10 +91,19 @@ static void print_value(FILE *out, const char *name, double value, double error,
         (void)fprintf(out, "  %-24s %.6g +- %.2g %s\n", name, value, error, unit);
 }
 
+/* A length has an error of its own, and one by the scale, which all of them share. */
+static void print_length(FILE *out, const char *name, double value, double error, const fst_measurement *m)
+{
+    print_value(out, name, value, error, m->length_unit);
+    if (!isnan(value) && !isnan(m->scale_error))
+        (void)fprintf(out, "  %-24s +- %.2g %s by the scale, which is known to %.2g %%\n", "",
+                      value * m->scale_error, m->length_unit, 100.0 * m->scale_error);
+}
+
 static void print_measurement(FILE *out, const fst_measurement *m)
 {
-    print_value(out, "<r>", m->mean_r, m->mean_r_error, m->length_unit);
-    print_value(out, "delta r", m->std_r, m->std_r_error, m->length_unit);
+    print_length(out, "<r>", m->mean_r, m->mean_r_error, m);
+    print_length(out, "delta r", m->std_r, m->std_r_error, m);
     print_value(out, "bead", m->bead_frequency_hz, m->bead_frequency_hz_error, "Hz");
     print_value(out, "festoons N", m->festoons, m->festoons_error, "");
     print_value(out, "drive, from the track", m->drive_from_track_hz, m->drive_from_track_hz_error, "Hz");

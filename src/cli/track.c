@@ -6,13 +6,17 @@
 #include "cli/terminal.h"
 
 enum { SHOWN_DOUBTS = 8 };
+/* A bead that differs less is poorly seen. */
+#define FAINT_LEVELS 20.0   /* of 255 */
+#define FAINT_OF_NOISE 12.0 /* deviations of a pixel */
 
 static const option options[] = {
     {"output", 'o', "TRACK.csv",
      "columns frame,t [s],x [mm],y [mm] (px without a scale), a row a frame; y points up"},
     {"beads", '\0', "N", "how many beads of one size are followed, 1 to 4 (1)"},
     {"scale", '\0', "SCALE",
-     "\"bead 5 mm\", \"plate 460 mm\", \"X1,Y1:X2,Y2=50mm\", or four corners \"...=80x60mm\""},
+     "\"bead 5 mm\", \"plate 460 mm\", \"X1,Y1:X2,Y2=50mm\", or four corners \"...=80x60mm\"; \"A; B\": "
+     "A, compared with B"},
     {"fps", '\0', "F", "frames a second, instead of the film's clock; a folder of images needs it"},
     {"distance", '\0', "LENGTH", "from the camera to the plate: allows for the bead's height above it"},
     {"overlay", '\0', "FILM.mp4",
@@ -74,8 +78,9 @@ static void print_names(const fst_film_track_report *r, FILE *out)
         (void)fprintf(out, "            and %d times more\n", r->doubt_count - SHOWN_DOUBTS);
 }
 
-static void print_report(const fst_film_track_report *r, int by_bead, FILE *out)
+static void print_report(const fst_film_track_report *r, FILE *out)
 {
+    char text[SHOWN_SIZE];
     (void)fprintf(out, "film        %s, %s, %d x %d pixels\n", r->format, r->codec, r->width, r->height);
     (void)fprintf(out, "frames      %d, %.6g a second on average\n", r->frames, r->fps);
     if (r->most_step - r->least_step > fmax(0.01 * r->least_step, 1.5 * r->tick)) /* a coarse clock rounds */
@@ -88,19 +93,39 @@ static void print_report(const fst_film_track_report *r, int by_bead, FILE *out)
     (void)fprintf(out, "lost        %d", r->lost);
     if (r->lost)
         (void)fprintf(out, ", first frame %d", r->first_lost);
-    (void)fprintf(out, "\nbead        %.1f pixels wide; noise of a pixel %.1f gray levels\n", r->diameter,
-                  r->noise);
+    (void)fprintf(out, "\nbead        %.1f +- %.1f pixels wide; noise of a pixel %.1f gray levels\n",
+                  r->diameter, r->diameter_error, r->noise);
+    if (r->shadow > 0.0)
+        (void)fprintf(out, "shadow      beside the bead, %.0f %% as dark; it is left out\n", 100.0 * r->shadow);
+    if (r->shake > 0.0)
+        (void)fprintf(out, "camera      moved by %.2g pixels (rms), which the track is corrected for\n",
+                      r->shake);
     print_names(r, out);
     if (!isnan(r->jitter))
         (void)fprintf(out, "scatter     %.2f pixels about a smooth path\n", r->jitter);
-    if (!isnan(r->scale))
-        (void)fprintf(out, "scale       %.5g mm a pixel in the middle of the path\n", r->scale);
-    if (by_bead)
-        (void)fprintf(
-            out, "            by the bead's width, which half a pixel more or less would change by %.1f %%\n",
-            50.0 / r->diameter);
+    for (int i = 0; i < r->scale_count; ++i)
+        (void)fprintf(out, "%s%.5g mm a pixel in the middle of the path, +- %.2g %% (%s)\n",
+                      i == 0 ? "scale       " : "            ", r->scales[i].value, 100.0 * r->scales[i].error,
+                      shown(r->scales[i].text, text));
     if (r->edge_count > 0)
         print_edges(r, out);
+}
+
+/* Two scales of the same film that do not agree within their errors. */
+static void warn_of_scales(const fst_film_track_report *r)
+{
+    const fst_film_scale *first = &r->scales[0];
+    char text[2][SHOWN_SIZE];
+    for (int i = 1; i < r->scale_count; ++i) {
+        const fst_film_scale *other = &r->scales[i];
+        if (fabs(log(other->value / first->value)) > 2.0 * hypot(first->error, other->error))
+            (void)fprintf(
+                stderr,
+                "festoon: warning: the scales contradict each other: %.5g +- %.2g mm a pixel by \"%s\", "
+                "which is used, and %.5g +- %.2g by \"%s\"\n",
+                first->value, first->value * first->error, shown(first->text, text[0]), other->value,
+                other->value * other->error, shown(other->text, text[1]));
+    }
 }
 
 /* What makes a person look twice. */
@@ -108,6 +133,21 @@ static void warn(const fst_film_track_report *r)
 {
     if (r->remark[0])
         (void)fprintf(stderr, "festoon: warning: %s\n", r->remark);
+    warn_of_scales(r);
+    if (r->contrast < FAINT_LEVELS || r->contrast < FAINT_OF_NOISE * r->noise)
+        (void)fprintf(
+            stderr,
+            "festoon: warning: the bead differs from the plate by %.0f gray levels of 255 only, where the "
+            "noise "
+            "of a pixel is %.1f: its places are poor, and its width is worse; take more light, or a plain "
+            "sheet under it\n",
+            r->contrast, r->noise);
+    if (r->diameter_error > 0.05 * r->diameter)
+        (void)fprintf(
+            stderr,
+            "festoon: warning: how wide the bead is shows only to %.0f %%: it is blurred, unevenly lit, or its "
+            "shadow cannot be told from it\n",
+            100.0 * r->diameter_error / r->diameter);
     if (r->twins > r->frames / 50)
         (void)fprintf(
             stderr,
@@ -149,7 +189,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     progress_end(&line);
     if (status != FST_OK)
         return status;
-    print_report(&report, film.scale && strncmp(film.scale, "bead", 4) == 0, out);
+    print_report(&report, out);
     warn(&report);
     tell_written(to, "");
     for (int bead = 0; bead < film.beads; ++bead)
@@ -164,7 +204,8 @@ const command track_command = {
     .details =
         "FILM is what ffmpeg reads of mp4, mov, webm, gif, avi ...; FOLDER has images (PNG, JPEG, BMP, PGM, "
         "PPM),\n"
-        "taken in the order of their names and numbers.  The camera must stand still; the bead must be darker\n"
+        "taken in the order of their names and numbers.  The camera should stand still; the bead must be "
+        "darker\n"
         "or brighter than the plate.  With --beads a row is a bead in a frame: column track has its name, "
         "doubts how\n"
         "often until there it may have exchanged it with another one's.  Pixels of a scale count from the top "

@@ -4,6 +4,7 @@
  *
  *      (model - value)/error     of each number, the model at the frequency f + d of its row,
  *      d/error of f              of each row whose frequency has an error: d makes the sum least,
+ *      e/error of the scale      where it has one: all lengths are wrong by the part e, which makes the sum least,
  *      (value - prior)/error     of each parameter of which something is known otherwise,
  *
  * and of how far a parameter lies outside its range, which holds the search within it.  The d are not sought:
@@ -41,10 +42,17 @@ static fst_status take_numbers(fit_problem *p, const fst_points *points, fst_err
         const fst_point *row = &points->rows[i];
         frequencies[i] = row->frequency;
         p->frequency_error[i] = isfinite(row->frequency_error) ? row->frequency_error : 0.0;
-        for (int q = 0; q < FST_MEASURED_COUNT; ++q)
+        for (int q = 0; q < FST_MEASURED_COUNT; ++q) {
+            const int scaled = row->scale_error > 0.0 && fst_measured_unit((fst_measured)q) == FST_UNIT_LENGTH;
             if (isfinite(row->value[q]))
                 p->numbers[p->count++] =
-                    (fit_number){(int)i, (fst_measured)q, row->value[q], row->error[q], 0.0, 1.0};
+                    (fit_number){.row = (int)i,
+                                 .what = (fst_measured)q,
+                                 .value = row->value[q],
+                                 .error = row->error[q],
+                                 .by_scale = scaled ? row->scale_error * row->value[q] / row->error[q] : 0.0,
+                                 .weight = 1.0};
+        }
     }
     if (status == FST_OK)
         status = fit_rows_begin(&p->rows, &p->space, frequencies, (int)points->count, NULL, error);
@@ -86,7 +94,10 @@ fst_status fit_problem_begin(fit_problem *p, const fst_params *params, const fst
     p->values = calloc((size_t)p->rows.count, sizeof *p->values);
     p->slopes = calloc((size_t)p->rows.count * (size_t)p->space.count, sizeof *p->slopes);
     p->f = calloc((size_t)fit_residual_count(p), sizeof *p->f);
-    return p->values && p->slopes && p->f ? FST_OK : fst_fail(error, FST_NO_MEMORY, "fst_fit", "out of memory");
+    p->common = calloc((size_t)fit_residual_count(p), sizeof *p->common);
+    return p->values && p->slopes && p->f && p->common
+               ? FST_OK
+               : fst_fail(error, FST_NO_MEMORY, "fst_fit", "out of memory");
 }
 
 void fit_problem_free(fit_problem *p)
@@ -97,6 +108,7 @@ void fit_problem_free(fit_problem *p)
     free(p->values);
     free(p->slopes);
     free(p->f);
+    free(p->common);
     memset(p, 0, sizeof *p);
 }
 
@@ -137,10 +149,10 @@ static double number_residual(const fit_problem *p, const fit_number *n)
     return v->origin == FIT_NOTHING ? lost_residual(p, n) : (v->value[n->what] - n->value) / n->error;
 }
 
-/* Error of a number with that of its frequency, over its own. */
+/* Error of a number with those of its frequency and of the scale, over its own. */
 static double widening(const fit_problem *p, const fit_number *n)
 {
-    return hypot(1.0, n->by_frequency * p->frequency_error[n->row] / n->error);
+    return hypot(hypot(1.0, n->by_frequency * p->frequency_error[n->row] / n->error), n->by_scale);
 }
 
 double fit_plain_residual(const fit_problem *p, int number)
@@ -176,6 +188,24 @@ static void join_rows(const fit_problem *p, double *f)
         const double slope = n->by_frequency * p->frequency_error[n->row] / n->error;
         f[k] = sqrt(n->weight) * (f[k] + slope * d[n->row]);
     }
+}
+
+/* The same for the scale, whose deviation all lengths share: F becomes (1 + G G^T)^(-1/2) F, where G is what one
+ * deviation does to the residuals F.  The sum of squares is then the least over all deviations, each with its own
+ * square. */
+static void join_all(const fit_problem *p, double *f)
+{
+    const int all = p->count + p->rows.count;
+    join_rows(p, f);
+    for (int k = 0; k < p->count; ++k)
+        p->common[k] = p->numbers[k].by_scale;
+    join_rows(p, p->common);
+    const double square = fst_dot(p->common, p->common, all);
+    if (!(square > 0.0))
+        return;
+    const double part = fst_dot(p->common, f, all) / square * (1.0 - 1.0 / sqrt(1.0 + square));
+    for (int k = 0; k < all; ++k)
+        f[k] -= part * p->common[k];
 }
 
 /* The robust form: a residual r counts by c^2 log(1 + (r/c)^2) (Cauchy's), and its derivative accordingly. */
@@ -227,7 +257,7 @@ fst_status fit_residuals(fit_problem *p, const double *u, double *f, fst_error *
     if (p->robust > 0.0)
         memset(f + p->count, 0, (size_t)p->rows.count * sizeof *f);
     else
-        join_rows(p, f);
+        join_all(p, f);
     space_residuals(p, u, f + p->count + p->rows.count);
     return FST_OK;
 }
@@ -267,7 +297,7 @@ void fit_weighted_derivatives(const fit_problem *p, double *jacobian)
                             : raw[j] * widening(p, number);
         }
         if (!(p->robust > 0.0))
-            join_rows(p, column);
+            join_all(p, column);
     }
     space_derivatives(p, p->slopes_at, jacobian);
 }

@@ -11,6 +11,7 @@ typedef struct fit_number {
     fst_measured what;
     double value, error;
     double by_frequency; /* d value/d frequency by the model */
+    double by_scale;     /* what a deviation of the scale changes it by, in its errors */
     double weight;       /* 0: left out; of a bootstrap, how many times it was drawn */
 } fit_number;
 
@@ -31,7 +32,8 @@ typedef struct fit_problem {
     int is_evaluated;
     double (*slopes)[FST_MEASURED_COUNT]; /* at `slopes_at`, if they are known */
     double slopes_at[FIT_MOST];
-    double *f; /* room for residuals */
+    double *f;      /* room for residuals */
+    double *common; /* room for what a deviation of the scale does to those of numbers and frequencies */
     int has_slopes;
 } fit_problem;
 

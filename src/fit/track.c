@@ -4,7 +4,7 @@
  * What a table says of a film in three numbers, the track says in hundreds of places.  Beside the parameters a
  * few numbers are unknown of which nobody wants to know: the centre of the picture, the angle of the magnet and
  * the place on the orbit at the beginning, the exact frequency of the drive, the camera's tilt where there is
- * one, and, if it is known only roughly, the exposure.  They are sought together.
+ * one, and, if they are known only roughly, the exposure and the scale.  They are sought together.
  *
  *      track --> measure --> three numbers --> a fit of a table --> start
  *        |                                                            |
@@ -28,10 +28,10 @@
 #include "fit/report.h"
 
 /* The unknowns behind the parameters. */
-enum { DRIVE, CENTRE_X, CENTRE_Y, TURN, PHASE, EXPOSURE, TILT_X, TILT_Y, NUISANCES };
+enum { DRIVE, CENTRE_X, CENTRE_Y, TURN, PHASE, EXPOSURE, SCALE, TILT_X, TILT_Y, NUISANCES };
 
 /* Lengths of a step of these unknowns; residuals are in units of NOISE. */
-static const double unit_of[NUISANCES] = {1e-3, 1e-3, 1e-3, 1.0, 0.1, 1e-3, 1e-2, 1e-2};
+static const double unit_of[NUISANCES] = {1e-3, 1e-3, 1e-3, 1.0, 0.1, 1e-3, 1e-2, 1e-2, 1e-2};
 #define NOISE 1e-4 /* m */
 
 typedef struct film_fit {
@@ -47,6 +47,7 @@ typedef struct film_fit {
     double drive, sense, turn, phase;
     double complex centre;
     double exposure[2];             /* and its error; 0: exact */
+    double scale_error;             /* relative, of all lengths of the film; 0: none */
     double complex tilt;            /* what it does: z becomes (1 + |tilt|) z + tilt conj(z) on the plate */
     int nuisances, slot[NUISANCES]; /* how many are sought, and which unknown each is; -1: it is held */
     fst_orbit orbit;                /* the latest that was found, its path, and where */
@@ -81,8 +82,9 @@ static fst_status ask_at(const film_fit *f, int frame, fst_error *error)
 /* The nuisance parameter k at the unknowns. */
 static double nuisance(const film_fit *f, const double *v, int k)
 {
-    const double start[NUISANCES] = {f->drive, creal(f->centre), cimag(f->centre), f->turn,
-                                     f->phase, f->exposure[0],   creal(f->tilt),   cimag(f->tilt)};
+    const double start[NUISANCES] = {f->drive, creal(f->centre), cimag(f->centre),
+                                     f->turn,  f->phase,         f->exposure[0],
+                                     0.0,      creal(f->tilt),   cimag(f->tilt)};
     const double step = f->slot[k] >= 0 ? v[f->space.count + f->slot[k]] * unit_of[k] : 0.0;
     return k == DRIVE ? start[k] * (1.0 + step) : start[k] + step;
 }
@@ -129,10 +131,10 @@ static double complex on_plate(double complex tilt, double complex z)
     return (1.0 + cabs(tilt)) * z + tilt * conj(z);
 }
 
-/* Residuals: two a frame; then the priors of the parameters and of the exposure. */
+/* Residuals: two a frame; then the priors of the parameters, of the exposure and of the scale. */
 static int residual_count(const film_fit *f)
 {
-    return 2 * f->used + f->space.count + 1;
+    return 2 * f->used + f->space.count + 2;
 }
 
 static fst_status residuals(film_fit *f, const double *v, double *r, fst_error *error)
@@ -143,10 +145,12 @@ static fst_status residuals(film_fit *f, const double *v, double *r, fst_error *
     if (status != FST_OK)
         return status;
     const double complex tilt = nuisance(f, v, TILT_X) + nuisance(f, v, TILT_Y) * I;
+    const double scale = 1.0 + nuisance(f, v, SCALE);
     for (int i = 0; i < f->used; ++i) {
         if ((status = ask_at(f, i, error)) != FST_OK)
             return status;
-        const double complex miss = (place(f, &path, v, i) - on_plate(tilt, f->z[i])) * (f->weight[i] / NOISE);
+        const double complex miss =
+            (place(f, &path, v, i) - scale * on_plate(tilt, f->z[i])) * (f->weight[i] / NOISE);
         r[2 * i] = creal(miss);
         r[2 * i + 1] = cimag(miss);
     }
@@ -157,6 +161,7 @@ static fst_status residuals(film_fit *f, const double *v, double *r, fst_error *
     }
     r[2 * f->used + f->space.count] =
         f->slot[EXPOSURE] >= 0 ? (nuisance(f, v, EXPOSURE) - f->exposure[0]) / f->exposure[1] : 0.0;
+    r[2 * f->used + f->space.count + 1] = f->slot[SCALE] >= 0 ? nuisance(f, v, SCALE) / f->scale_error : 0.0;
     return FST_OK;
 }
 
@@ -263,6 +268,7 @@ static fst_status take_frames(film_fit *f, const fst_track *track, const fst_mea
         f->tilt = 0.5 * (s[0] - s[2]) + s[1] * I;
     double unit;
     char one[32];
+    f->scale_error = track->scale_error;
     f->t = calloc(track->rows + 1, sizeof *f->t);
     f->z = calloc(track->rows + 1, sizeof *f->z);
     f->weight = calloc(track->rows + 1, sizeof *f->weight);
@@ -459,7 +465,8 @@ static fst_status begin(film_fit *f, const fst_params *params, const fst_measure
     f->exposure[0] = isfinite(options->exposure) ? options->exposure : 0.0;
     f->exposure[1] = options->exposure_error;
     for (int k = 0; k < NUISANCES; ++k) {
-        const int held = (k == EXPOSURE && !(f->exposure[1] > 0.0)) || (k >= TILT_X && f->tilt == 0.0);
+        const int held = (k == EXPOSURE && !(f->exposure[1] > 0.0)) ||
+                         (k == SCALE && !(f->scale_error > 0.0)) || (k >= TILT_X && f->tilt == 0.0);
         f->slot[k] = held ? -1 : f->nuisances++;
     }
     f->outer = options->progress;

@@ -98,7 +98,8 @@ static fst_status choose(follow_bead *f, const unsigned char *frame, double time
         const double bad = misfit(f, &cover, reach, column, row);
         if (bad < best) {
             best = bad;
-            *place = (follow_place){cover.column, cover.row, cover.narrow, 0};
+            *place = (follow_place){cover.column + f->look->shift[0], cover.row + f->look->shift[1],
+                                    cover.narrow, 0};
         }
     }
     return FST_OK;
@@ -110,6 +111,8 @@ int follow_bead_see(follow_bead *follower, const unsigned char *frame)
     const int twin = follower->frames++ > 0 && is_twin(follower, frame);
     memcpy(follower->before, frame, size);
     follow_still_gains(follower->blobs->still, frame, follower->gains);
+    for (int row = 0; row < follower->blobs->still->height; ++row)
+        follower->gains[row] *= (float)(1.0 - follower->look->shade);
     follow_blobs_find(follower->blobs, frame, follower->gains, follower->look->sign, follower->look->threshold);
     return twin;
 }

@@ -5,10 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/constants.h"
 #include "base/error.h"
-
-#define STEEP 3.0 /* pixels near half cover count in part, so that the area inside that contour is smooth */
 
 enum { FOUND = 1, FIRST_LABEL = 2, NO_LABEL = 255, LEAST_PIXELS = 4, MARGIN = 3, REACH = 2, LEVELS = 256 };
 
@@ -186,7 +183,7 @@ double follow_blobs_part(const follow_blobs *blobs, const follow_box *box, const
 /* Sum what the window holds of the spot. */
 static void sum_up(const follow_blobs *b, const follow_box *box, const int window[4], follow_cover *cover)
 {
-    double sum = 0.0, half_covered = 0.0, first[2] = {0.0, 0.0}, second[3] = {0.0, 0.0, 0.0};
+    double sum = 0.0, first[2] = {0.0, 0.0}, second[3] = {0.0, 0.0, 0.0};
     for (int row = window[2]; row <= window[3]; ++row)
         for (int column = window[0]; column <= window[1]; ++column) {
             const double part = follow_blobs_part(b, box, window, column, row);
@@ -194,7 +191,6 @@ static void sum_up(const follow_blobs *b, const follow_box *box, const int windo
                 continue;
             const double x = column - box->left, y = row - box->top; /* small numbers keep the moments exact */
             sum += part;
-            half_covered += fmax(0.0, fmin(1.0, STEEP * (part - 0.5) + 0.5));
             first[0] += part * x;
             first[1] += part * y;
             second[0] += part * x * x;
@@ -208,11 +204,9 @@ static void sum_up(const follow_blobs *b, const follow_box *box, const int windo
     /* A pixel is a square, whose second moment, 1/12, does not belong to the bead. */
     const double xx = second[0] / sum - x * x - 1.0 / 12.0, yy = second[2] / sum - y * y - 1.0 / 12.0;
     const double xy = second[1] / sum - x * y, half = 0.5 * (xx + yy), spread = hypot(0.5 * (xx - yy), xy);
-    cover->width = 2.0 * sqrt(half_covered / FST_PI);
     cover->column = box->left + x;
     cover->row = box->top + y;
     cover->narrow = 4.0 * sqrt(fmax(0.0, half - spread)); /* a disc's second moment is diameter^2/16 */
-    cover->wide = 4.0 * sqrt(fmax(0.0, half + spread));
     cover->cut = box->left == 0 || box->top == 0 || box->right + 1 == b->still->width ||
                  box->bottom + 1 == b->still->height;
 }

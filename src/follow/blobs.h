@@ -17,8 +17,13 @@ typedef struct follow_look {
     double sign;      /* 1: darker than the background; -1: brighter */
     double contrast;  /* by which part of the background's level it is darker, or by how many levels brighter */
     double threshold; /* gray levels; less is noise */
+    double levels;    /* gray levels by which it differs from the background, in the mean */
     double area;      /* of the bead, pixels */
     double diameter;  /* pixels */
+    double shade;     /* part of the background's level that its shadow takes away; contrast and threshold are
+                         then of what the shadow leaves */
+    double shift[2];  /* pixels from the centroid of what is left to the bead's centre; 0 without a shadow */
+    double diameter_error; /* pixels, a standard deviation */
 } follow_look;
 
 /* A connected spot of the mask. */
@@ -31,9 +36,8 @@ typedef struct follow_box {
 /* The cover of a spot, summed. */
 typedef struct follow_cover {
     double area, column, row; /* pixels; the centroid */
-    double width;             /* of the disc with the area inside the contour of half cover, pixels */
-    double narrow, wide; /* diameters of a disc that has the same second moment, across and along the motion */
-    int cut;             /* the spot touches the edge of the picture */
+    double narrow; /* diameter of a disc that has the same second moment, across the motion, pixels */
+    int cut;       /* the spot touches the edge of the picture */
 } follow_cover;
 
 enum { FOLLOW_MOST_BOXES = 200 };

@@ -5,7 +5,7 @@
  *                          --> learn.c   what the bead looks like
  *        --> decoder.c --> bead.c        where it is, frame by frame --> overlay.c
  *                          beads.c       the same of several
- *                          --> plane.c, rim.c, plate.c   millimetres --> fst_track
+ *                          --> scale.c, plane.c, rim.c, plate.c   millimetres --> fst_track
  *
  * The film is decoded three times, because memory must not grow with it: once for the times, once for the
  * samples, once to follow the bead.
@@ -23,8 +23,7 @@
 #include "follow/decoder.h"
 #include "follow/learn.h"
 #include "follow/overlay.h"
-#include "follow/plate.h"
-#include "follow/rim.h"
+#include "follow/scale.h"
 
 #include <festoon/festoon_tools.h>
 
@@ -47,11 +46,14 @@ typedef struct tracking {
     follow_blobs blobs;
     follow_look look;
     follow_overlay overlay;
-    follow_scale scale;
+    follow_scale scales[FST_FILM_SCALES];
+    int scale_count; /* 0: pixels */
     follow_plane plane;
-    follow_ellipse rim;
-    int has_rim;
+    follow_rim rim;
     follow_sizes sizes;
+    follow_shake shake; /* of a camera that shook; count 0: it stood still */
+    double moved[2];    /* the latest frame of it, pixels */
+    float *gains;       /* of the rows of such a frame */
     double *columns[FST_TRACKED_BEADS], *rows[FST_TRACKED_BEADS]; /* pixels, of each frame; NAN where lost */
     int *doubts[FST_TRACKED_BEADS]; /* how often until there the bead's name was in doubt */
     int beads, frames;
@@ -93,6 +95,8 @@ static fst_status follow_frames(tracking *t, follow_decoder *decoder, follow_bea
         if (status != FST_OK || !there || t->frames == t->source.frames)
             return status;
         const int index = t->frames;
+        if (t->shake.count > 0)
+            follow_still_steady(&t->still, &t->shake, decoder->pixels, t->gains, t->moved);
         status = follow_beads_next(follower, decoder->pixels, t->source.times[index], places, &doubt, error);
         if (status == FST_OK)
             status =
@@ -120,6 +124,10 @@ static fst_status follow(tracking *t, const fst_progress *progress, fst_error *e
         if (!t->columns[bead] || !t->rows[bead] || !t->doubts[bead])
             return fst_fail(error, FST_NO_MEMORY, t->path, "no memory for %d places", t->source.frames);
     }
+    t->gains = malloc((size_t)t->still.height * sizeof *t->gains);
+    if (!t->gains || (t->still.shake > 0.0 && !follow_shake_begin(&t->shake, t->still.level, t->still.width,
+                                                                  t->still.height, t->still.margin)))
+        return fst_fail(error, FST_NO_MEMORY, t->path, "no memory for the shake of the camera");
     t->sizes.middle[0] = 0.5 * t->still.width;
     t->sizes.middle[1] = 0.5 * t->still.height;
     fst_status status = follow_beads_begin(&follower, &t->blobs, &t->look, t->beads, error);
@@ -216,91 +224,37 @@ static void middle_of_path(const tracking *t, double middle[2], double *reach)
             *reach = fmax(*reach, hypot(t->columns[bead][i] - middle[0], t->rows[bead][i] - middle[1]));
 }
 
-static fst_status plane_of_plate(tracking *t, const double middle[2], double reach, fst_error *error)
-{
-    double horizon[2];
-    follow_rim found;
-    fst_status status =
-        follow_rim_find(&t->still, t->path, middle, reach + 0.5 * t->look.diameter, &found, error);
-    if (status != FST_OK)
-        return status;
-    t->has_rim = 1;
-    t->rim = found.ellipses[found.taken];
-    const fst_plate_edge *edge = &found.edges[found.taken];
-    t->report->plate[0] = edge->diameter[0];
-    t->report->plate[1] = edge->diameter[1];
-    t->report->rim_error = edge->error;
-    memcpy(t->report->edges, found.edges, sizeof found.edges);
-    t->report->edge_count = found.count;
-    t->report->edge_taken = found.taken;
-    follow_plate_horizon(&t->sizes, &t->rim, t->still.width, t->still.height, horizon);
-    return follow_plane_of_circle(&t->rim, horizon, 0.5 * t->scale.length[0], &t->plane, error);
-}
-
-/* A bead whose centre is above the plate is seen larger, and farther from the camera's axis, than the plate
- * under it. */
-static fst_status lower_bead(tracking *t, const double middle[2], fst_error *error)
-{
-    const double distance = 1e3 * t->options->distance;
-    const double height = 0.5 * t->look.diameter * follow_plane_step(&t->plane, middle[0], middle[1]);
-    if (isnan(distance) || t->scale.kind == FOLLOW_SCALE_BEAD)
-        return FST_OK;
-    if (!(distance > 4.0 * height && distance < 1e6))
-        return fst_fail(error, FST_BAD_INPUT, "fst_film_track_options.distance",
-                        "%g mm from the camera to the plate, where the bead's centre is %.2g mm above it",
-                        distance, height);
-    double x, y;
-    follow_plane_map(&t->plane, middle[0], middle[1], &x, &y);
-    const double factor = 1.0 - height / distance;
-    for (int j = 0; j < 3; ++j) { /* shrink about the middle of the path */
-        t->plane.m[0][j] = factor * t->plane.m[0][j] + (1.0 - factor) * x * t->plane.m[2][j];
-        t->plane.m[1][j] = factor * t->plane.m[1][j] + (1.0 - factor) * y * t->plane.m[2][j];
-    }
-    return FST_OK;
-}
-
-static fst_status check_points(const tracking *t, fst_error *error)
-{
-    const int count = t->scale.kind == FOLLOW_SCALE_TWO ? 2 : t->scale.kind == FOLLOW_SCALE_FOUR ? 4 : 0;
-    for (int i = 0; i < count; ++i) {
-        const double *p = t->scale.points[i];
-        if (!(p[0] >= -1.0 && p[1] >= -1.0 && p[0] <= t->still.width && p[1] <= t->still.height))
-            return fst_fail(error, FST_BAD_INPUT, "fst_film_track_options.scale",
-                            "the point %g,%g is outside of the picture, which has %d x %d pixels", p[0], p[1],
-                            t->still.width, t->still.height);
-    }
-    return FST_OK;
-}
-
+/* Apply all scales; the first makes the track. */
 static fst_status make_plane(tracking *t, fst_error *error)
 {
-    const double bottom = t->still.height - 1.0;
-    double middle[2], reach;
+    fst_film_track_report *r = t->report;
+    follow_view view = {.path = t->path,
+                        .still = &t->still,
+                        .look = &t->look,
+                        .sizes = &t->sizes,
+                        .distance = t->options->distance};
     fst_status status = FST_OK;
-    middle_of_path(t, middle, &reach);
-    switch (t->scale.kind) {
-    case FOLLOW_SCALE_NONE:
-        t->plane = follow_plane_even(1.0, bottom);
-        return FST_OK;
-    case FOLLOW_SCALE_BEAD:
-        t->plane = follow_plane_even(t->scale.length[0] / t->look.diameter, bottom);
-        break;
-    case FOLLOW_SCALE_TWO:
-        t->plane = follow_plane_even(t->scale.length[0] / hypot(t->scale.points[1][0] - t->scale.points[0][0],
-                                                                t->scale.points[1][1] - t->scale.points[0][1]),
-                                     bottom);
-        break;
-    case FOLLOW_SCALE_FOUR:
-        status = follow_plane_of_rectangle(&t->scale, &t->plane, error);
-        break;
-    case FOLLOW_SCALE_PLATE:
-        status = plane_of_plate(t, middle, reach, error);
-        break;
+    middle_of_path(t, view.middle, &view.reach);
+    t->plane = follow_plane_even(1.0, t->still.height - 1.0);
+    for (int i = 0; i < t->scale_count && status == FST_OK; ++i) {
+        follow_plane other;
+        fst_film_scale *found = &r->scales[i];
+        status = follow_scale_apply(&t->scales[i], &view, &t->rim, i ? &other : &t->plane, &found->value,
+                                    &found->error, error);
+        r->scale_count += status == FST_OK;
     }
-    if (status == FST_OK)
-        status = lower_bead(t, middle, error);
-    if (status == FST_OK)
-        t->report->scale = follow_plane_step(&t->plane, middle[0], middle[1]);
+    if (t->rim.taken >= 0) {
+        const fst_plate_edge *edge = &t->rim.edges[t->rim.taken];
+        memcpy(r->plate, edge->diameter, sizeof r->plate);
+        memcpy(r->edges, t->rim.edges, sizeof r->edges);
+        r->rim_error = edge->error;
+        r->edge_count = t->rim.count;
+        r->edge_taken = t->rim.taken;
+    }
+    if (r->scale_count > 0) {
+        r->scale = r->scales[0].value;
+        r->scale_error = r->scales[0].error;
+    }
     return status;
 }
 
@@ -328,8 +282,8 @@ static fst_status begin(tracking *t, fst_error *error)
     status = follow_still_make(&t->still, &t->source, &told[1], error);
     if (status == FST_OK)
         status = follow_blobs_begin(&t->blobs, &t->still, error);
-    if (status == FST_OK)
-        status = check_points(t, error);
+    for (int i = 0; i < t->scale_count && status == FST_OK; ++i)
+        status = follow_scale_check(&t->scales[i], &t->still, error);
     if (status == FST_OK)
         status = follow_learn(&t->blobs, t->path, t->beads, &told[2], &t->look, error);
     if (status == FST_OK && !(t->look.diameter >= LEAST_DIAMETER))
@@ -341,15 +295,18 @@ static fst_status begin(tracking *t, fst_error *error)
     r->width = t->still.width;
     r->height = t->still.height;
     r->diameter = t->look.diameter;
+    r->diameter_error = t->look.diameter_error;
+    r->shadow = t->look.shade / (t->look.shade + (1.0 - t->look.shade) * t->look.contrast);
     r->noise = t->still.noise;
-    r->contrast = t->look.threshold; /* until the background behind it is known */
+    r->shake = t->still.shake;
+    r->contrast = t->look.levels;
     return status;
 }
 
 static fst_status make_track(const tracking *t, int bead, fst_track *track, fst_error *error)
 {
-    (void)snprintf(track->length_unit, sizeof track->length_unit, "%s",
-                   t->scale.kind == FOLLOW_SCALE_NONE ? "px" : "mm");
+    (void)snprintf(track->length_unit, sizeof track->length_unit, "%s", t->scale_count ? "mm" : "px");
+    track->scale_error = t->scale_count ? t->report->scale_error : 0.0;
     track->fps = t->report->fps;
     track->steady = t->report->most_step - t->report->least_step < 1e-3 * t->report->least_step;
     for (int i = 0; i < t->frames; ++i) {
@@ -367,7 +324,7 @@ static fst_status make_track(const tracking *t, int bead, fst_track *track, fst_
 static fst_status finish_overlay(tracking *t, fst_error *error)
 {
     return follow_overlay_finish(&t->overlay, &t->still, &t->look, t->columns, t->rows, t->frames,
-                                 t->has_rim ? &t->rim : NULL, error);
+                                 t->rim.taken < 0 ? NULL : &t->rim.ellipses[t->rim.taken], error);
 }
 
 /* Where no scale was found, the picture and the overlay show why: they are written all the same. */
@@ -430,13 +387,15 @@ fst_status fst_film_track(const char *film, const fst_film_track_options *option
     tracking t = {.path = film,
                   .options = options ? options : &defaults,
                   .report = report ? report : &unwanted,
-                  .source = {.descriptor = -1}};
+                  .source = {.descriptor = -1},
+                  .rim = {.taken = -1}};
     t.beads = t.options->beads;
     *t.report = (fst_film_track_report){.first_lost = -1,
                                         .beads = t.beads,
                                         .fps = NAN,
                                         .jitter = NAN,
                                         .scale = NAN,
+                                        .scale_error = NAN,
                                         .plate = {NAN, NAN},
                                         .rim_error = NAN,
                                         .edge_taken = -1};
@@ -453,7 +412,9 @@ fst_status fst_film_track(const char *film, const fst_film_track_options *option
         return fst_fail(error, FST_BAD_INPUT, "fst_film_track_options.distance",
                         "%g m from the camera to the plate: more than 0, at most 1 km", t.options->distance);
     const fst_c_locale locale = fst_c_locale_enter();
-    fst_status status = t.options->scale ? follow_scale_read(t.options->scale, &t.scale, error) : FST_OK;
+    fst_status status = t.options->scale ? follow_scales_read(t.options->scale, t.scales, t.report->scales,
+                                                              &t.scale_count, error)
+                                         : FST_OK;
     if (status == FST_OK && t.options->csv)
         status = check_place(t.options->csv, error);
     if (status == FST_OK)
@@ -469,6 +430,8 @@ fst_status fst_film_track(const char *film, const fst_film_track_options *option
     follow_blobs_end(&t.blobs);
     follow_still_free(&t.still);
     follow_source_close(&t.source);
+    follow_shake_end(&t.shake);
+    free(t.gains);
     fst_c_locale_leave(locale);
     return status;
 }

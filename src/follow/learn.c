@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/order.h"
 #include "base/watch.h"
+#include "follow/shadow.h"
 #include "follow/split.h"
 
 #define LEAST_CONTRAST 8.0 /* gray levels: less is no bead that can be followed */
@@ -20,6 +21,10 @@
 #define OF_CONTRAST 0.15   /* where a spot ends, in parts of the contrast */
 #define SECOND 0.5         /* a second spot of this part of the first one's area is another bead */
 #define SHARP 0.85         /* of the samples are blurred more: a blurred bead has less contrast */
+#define NOISY 12.0         /* a bead that differs by less, in deviations of a pixel, is hard to follow */
+#define DARK 40.0          /* gray levels of the brightest of a dark picture */
+#define MOST_MARGIN 5      /* times a shake's margin must fit into the picture */
+#define UNSTEADY 0.3       /* pixels that shifting back may leave */
 #define SEEN 0.5           /* part of the samples in which a bead must be seen */
 #define UNHIDDEN 0.75      /* of the samples show less of several beads, which hide each other */
 #define TWICE 0.3          /* part of the samples in which one more is too many */
@@ -110,17 +115,18 @@ static fst_status find_sign(follow_blobs *b, double threshold, const fst_progres
 /* What the samples say of the bead. */
 typedef struct learnt {
     double contrasts[FOLLOW_SAMPLES], areas[FOLLOW_SAMPLES];
-    double widths[FOLLOW_SAMPLES], blurs[FOLLOW_SAMPLES]; /* pixels; and how much longer than wide it looks */
-    int beads;                                            /* how many there are; `areas` are sums over them */
-    double behind; /* level of the background behind it, summed over the samples */
+    int beads;                        /* how many there are; `areas` are sums over them */
+    double shifts[2][FOLLOW_SAMPLES]; /* pixels from the centroid of the cover to the centre of the outline */
+    double behind;                    /* level of the background behind it, summed over the samples */
     int seen, twice;
+    follow_outline outline;
 } learnt;
 
 static fst_status measure_size(follow_blobs *b, int k, const follow_look *look, learnt *lesson,
                                fst_error *error)
 {
     const float *gains = gains_of(b, k);
-    double best = 0.0, width = 0.0, blur = 0.0, areas[FST_TRACKED_BEADS + 1] = {0.0}; /* the greatest first */
+    double best = 0.0, place[2] = {0.0, 0.0}, areas[FST_TRACKED_BEADS + 1] = {0.0}; /* the greatest first */
     follow_blobs_find(b, sample(b, k), gains, look->sign, look->threshold);
     for (int i = 0; i < b->count; ++i) {
         follow_cover cover;
@@ -129,8 +135,8 @@ static fst_status measure_size(follow_blobs *b, int k, const follow_look *look, 
             return status;
         if (cover.area > best) {
             best = cover.area;
-            width = fmin(cover.width, cover.narrow); /* motion widens the first, soft outlines the second */
-            blur = cover.wide / fmax(cover.narrow, 0.1);
+            place[0] = cover.column;
+            place[1] = cover.row;
         }
         for (int at = lesson->beads; at >= 0 && cover.area > areas[at]; --at) {
             if (at < lesson->beads)
@@ -143,28 +149,75 @@ static fst_status measure_size(follow_blobs *b, int k, const follow_look *look, 
     double sum = 0.0;
     for (int i = 0; i < lesson->beads; ++i)
         sum += areas[i];
-    lesson->areas[lesson->seen] = sum;
-    lesson->widths[lesson->seen] = width;
-    lesson->blurs[lesson->seen++] = blur;
+    for (int i = 0; i < 2; ++i)
+        lesson->shifts[i][lesson->seen] = lesson->outline.places[k][i] - place[i];
+    lesson->areas[lesson->seen++] = sum;
     lesson->twice += areas[lesson->beads] > SECOND * sum / lesson->beads;
     return FST_OK;
 }
 
-static void measure_contrast(follow_blobs *b, int k, double sign, double threshold, learnt *lesson)
+static fst_status measure_contrast(follow_blobs *b, int k, double sign, double threshold, learnt *lesson,
+                                   fst_error *error)
 {
     const float *gains = gains_of(b, k);
     follow_blobs_find(b, sample(b, k), gains, sign, threshold);
     const follow_box *box = greatest(b);
     if (!box)
-        return;
+        return FST_OK;
     const int row = (box->top + box->bottom) / 2, middle = row * b->still->width + (box->left + box->right) / 2;
     lesson->behind += (double)(gains[row] * b->still->level[middle]);
     lesson->contrasts[lesson->seen++] = contrast_of(b, sample(b, k), gains, sign, box);
+    return follow_outline_add(&lesson->outline, b, k, sign, box, error);
 }
 
-static fst_status no_bead(const char *path, const follow_blobs *b, int seen, double threshold, int crowded,
-                          fst_error *error)
+/* How wide the bead is.  Where it has a shadow, take its darkness off the background, in the samples too: what is darker still is
+ * the bead. */
+static void learn_outline(const follow_blobs *b, learnt *lesson, follow_look *look)
 {
+    const int count = b->still->height * b->still->count;
+    follow_outline_decide(&lesson->outline, look->sign);
+    /* Beside another bead a shadow cannot be told from it. */
+    look->shade = lesson->beads == 1 ? lesson->outline.shade : 0.0;
+    look->diameter = lesson->outline.diameter;
+    look->diameter_error = lesson->outline.error;
+    if (!(look->shade > 0.0))
+        return;
+    const double whole = quantile(lesson->outline.contrasts, lesson->outline.seen, SHARP);
+    look->contrast = (whole - look->shade) / (1.0 - look->shade);
+    for (int i = 0; i < count; ++i)
+        b->still->gains[i] *= (float)(1.0 - look->shade);
+}
+
+/* Why nothing can be followed, where it is the camera or the light that is at fault; FST_OK: neither. */
+static fst_status blame_film(const char *path, const follow_blobs *b, const follow_look *look, fst_error *error)
+{
+    const follow_still *s = b->still;
+    double bright = 0.0;
+    for (int i = 0; i < s->width * s->height; ++i)
+        bright = fmax(bright, (double)s->level[i]);
+    if (look->levels > 0.0 && look->levels < NOISY * s->noise)
+        return fst_fail(
+            error, FST_BAD_INPUT, path,
+            "too little light: the bead differs from the plate by %.0f gray levels of 255, and the noise "
+            "of a pixel is %.1f; take more light or a longer exposure, so that it differs by %.0f times "
+            "the noise",
+            look->levels, s->noise, NOISY);
+    if (OF_NOISE * s->noise > LEAST_CONTRAST || bright < DARK)
+        return fst_fail(
+            error, FST_BAD_INPUT, path,
+            "too little light: the brightest of the picture has %.0f gray levels of 255, the noise of a "
+            "pixel is %.1f, and no bead stands out by the %.0f levels that it takes; take more light or a "
+            "longer exposure",
+            bright, s->noise, fmax(OF_NOISE * s->noise, LEAST_CONTRAST));
+    return FST_OK;
+}
+
+static fst_status no_bead(const char *path, const follow_blobs *b, const follow_look *look, int seen,
+                          int crowded, fst_error *error)
+{
+    const fst_status status = blame_film(path, b, look, error);
+    if (status != FST_OK)
+        return status;
     if (crowded > b->still->count / 2)
         return fst_fail(error, FST_BAD_INPUT, path,
                         "the picture changes in many places at once: the camera must not move while it films, "
@@ -173,19 +226,25 @@ static fst_status no_bead(const char *path, const follow_blobs *b, int seen, dou
         error, FST_BAD_INPUT, path,
         "no bead was found: in %d of %d frames looked at, something stands out from what stays still by %.0f "
         "gray levels of 255 or more; a bead that rests, or hardly moves, cannot be told from the plate",
-        seen, b->still->count, threshold);
+        seen, b->still->count, look->threshold);
 }
 
 static const char *const numbers[] = {"no", "one", "two", "three", "four", "five"};
 
-static fst_status too_many(const char *path, const learnt *lesson, int count, fst_error *error)
+static fst_status too_many(const char *path, const follow_blobs *b, const follow_look *look,
+                           const learnt *lesson, fst_error *error)
 {
-    return fst_fail(error, FST_BAD_INPUT, path,
-                    "%s things of about the same size move in %d of %d frames looked at, where %s bead%s to be "
-                    "followed: %scut the others, or reflections, out of the picture",
-                    numbers[lesson->beads + 1], lesson->twice, count, numbers[lesson->beads],
-                    lesson->beads == 1 ? " was" : "s were",
-                    lesson->beads < FST_TRACKED_BEADS ? "say how many beads there are, or " : "");
+    const fst_status status = blame_film(path, b, look, error);
+    if (status != FST_OK)
+        return status;
+    return fst_fail(
+        error, FST_BAD_INPUT, path,
+        "%s things of about the same size move in %d of %d frames looked at, where %s bead%s to be "
+        "followed: %scut the others, or reflections, out of the picture, and see that the camera stands "
+        "still",
+        numbers[lesson->beads + 1], lesson->twice, b->still->count, numbers[lesson->beads],
+        lesson->beads == 1 ? " was" : "s were",
+        lesson->beads < FST_TRACKED_BEADS ? "say how many beads there are, or " : "");
 }
 
 /* A bead's area follows from its width, so that beads which touch are counted too. */
@@ -202,18 +261,17 @@ static fst_status check_count(const char *path, const learnt *lesson, double wid
                           numbers[lesson->beads], count - enough, count);
 }
 
-/* The width of the bead, by those samples in which it is blurred least.  Compression and optics make its
- * outline soft, which does not move the contour of half cover. */
-static double width_of(const learnt *lesson)
+/* A camera that shook so much that the samples cannot be shifted back. */
+static fst_status check_shake(const char *path, const follow_still *s, fst_error *error)
 {
-    double sorted[FOLLOW_SAMPLES], widths[FOLLOW_SAMPLES];
-    int count = 0;
-    memcpy(sorted, lesson->blurs, sizeof sorted);
-    const double most = quantile(sorted, lesson->seen, 0.4);
-    for (int i = 0; i < lesson->seen; ++i)
-        if (lesson->blurs[i] <= most)
-            widths[count++] = lesson->widths[i];
-    return quantile(widths, count, 0.5);
+    const int far = MOST_MARGIN * s->margin > (s->width < s->height ? s->width : s->height);
+    if (!(s->shake > 0.0) || (s->unsteady < UNSTEADY && !far))
+        return FST_OK;
+    return fst_fail(
+        error, FST_BAD_INPUT, path,
+        "the camera moves: the background shifts by %.1f pixels (rms), by up to %d, which is too much to be "
+        "followed: fix the camera",
+        s->shake, s->margin);
 }
 
 fst_status follow_learn(follow_blobs *blobs, const char *path, int beads, const fst_progress *progress,
@@ -222,16 +280,20 @@ fst_status follow_learn(follow_blobs *blobs, const char *path, int beads, const 
     const int count = blobs->still->count;
     const double least = fmax(OF_NOISE * blobs->still->noise, LEAST_CONTRAST);
     learnt lesson = {.beads = beads};
-    int crowded;
+    int crowded = 0;
     *look = (follow_look){.threshold = least};
-    fst_status status = find_sign(blobs, least, progress, &look->sign, &crowded, error);
+    fst_status status = check_shake(path, blobs->still, error);
+    if (status == FST_OK)
+        status = find_sign(blobs, least, progress, &look->sign, &crowded, error);
     for (int k = 0; k < count && status == FST_OK; ++k)
-        measure_contrast(blobs, k, look->sign, least, &lesson);
+        status = measure_contrast(blobs, k, look->sign, least, &lesson, error);
     if (status == FST_OK && lesson.seen < SEEN * count)
-        return no_bead(path, blobs, lesson.seen, least, crowded, error);
+        return no_bead(path, blobs, look, lesson.seen, crowded, error);
     look->contrast = quantile(lesson.contrasts, lesson.seen, SHARP);
-    const double behind = lesson.seen ? lesson.behind / lesson.seen : 0.0;
-    look->threshold = fmax(least, OF_CONTRAST * look->contrast * (look->sign > 0.0 ? behind : 1.0));
+    learn_outline(blobs, &lesson, look);
+    const double behind = lesson.seen ? (1.0 - look->shade) * lesson.behind / lesson.seen : 0.0;
+    look->levels = look->contrast * (look->sign > 0.0 ? behind : 1.0);
+    look->threshold = fmax(least, OF_CONTRAST * look->levels);
     lesson.seen = 0;
     for (int k = 0; k < count && status == FST_OK; ++k) {
         status = measure_size(blobs, k, look, &lesson, error);
@@ -241,10 +303,11 @@ fst_status follow_learn(follow_blobs *blobs, const char *path, int beads, const 
     if (status != FST_OK)
         return status;
     if (lesson.seen < SEEN * count)
-        return no_bead(path, blobs, lesson.seen, look->threshold, crowded, error);
+        return no_bead(path, blobs, look, lesson.seen, crowded, error);
     if (lesson.twice > TWICE * count)
-        return too_many(path, &lesson, count, error);
-    look->diameter = width_of(&lesson);
+        return too_many(path, blobs, look, &lesson, error);
+    for (int i = 0; i < 2 && look->shade > 0.0; ++i)
+        look->shift[i] = quantile(lesson.shifts[i], lesson.seen, 0.5);
     look->area = quantile(lesson.areas, lesson.seen, beads == 1 ? 0.5 : UNHIDDEN) / beads;
     return check_count(path, &lesson, look->diameter, count, error);
 }

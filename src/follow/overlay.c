@@ -17,6 +17,10 @@
 
 enum { QUALITY = 20, SLOWEST = 30 };
 
+/* Gray levels: a still picture whose brightest pixel has less is shown brighter, up to this. */
+#define DIM 120.0
+#define SHOWN 230.0
+
 typedef struct colour {
     int blue, green, red;
 } colour;
@@ -218,11 +222,15 @@ static void paint_path(follow_canvas *canvas, const double *columns, const doubl
 }
 
 /* The pieces in a row below the picture, each with a ring of the bead's size and a cross at its centre. */
-static void paint_crops(const follow_overlay *o, follow_canvas *canvas, const follow_look *look, int top)
+static void paint_crops(const follow_overlay *o, follow_canvas *canvas, const follow_look *look, int top,
+                        double stretch)
 {
+    unsigned char crop[FOLLOW_CROP_SIZE * FOLLOW_CROP_SIZE];
     for (int k = 0; k < o->crop_count; ++k) {
         const int left = k * (FOLLOW_CROP_SIZE + 4);
-        lay_gray(canvas, left, top, o->crops[k], FOLLOW_CROP_SIZE, FOLLOW_CROP_SIZE);
+        for (int i = 0; i < FOLLOW_CROP_SIZE * FOLLOW_CROP_SIZE; ++i)
+            crop[i] = (unsigned char)fmin(255.0, stretch * o->crops[k][i]);
+        lay_gray(canvas, left, top, crop, FOLLOW_CROP_SIZE, FOLLOW_CROP_SIZE);
         const double x = left + 0.5 * FOLLOW_CROP_SIZE - 0.5, y = top + 0.5 * FOLLOW_CROP_SIZE - 0.5;
         ring(canvas, x, y, 0.5 * look->diameter * o->crop_scale, 1.2, ring_colour);
         line(canvas, x - 5.0, y, x + 5.0, y, 1.2, ring_colour);
@@ -261,15 +269,19 @@ static fst_status make_picture(const follow_overlay *o, const follow_still *stil
         free(gray);
         return status;
     }
+    double bright = 1.0;
     for (size_t i = 0; i < size; ++i)
-        gray[i] = (unsigned char)fmin(255.0, (double)still->level[i] + 0.5);
+        bright = fmax(bright, (double)still->level[i]);
+    const double stretch = bright < DIM ? SHOWN / bright : 1.0;
+    for (size_t i = 0; i < size; ++i)
+        gray[i] = (unsigned char)fmin(255.0, stretch * (double)still->level[i] + 0.5);
     lay_gray(&canvas, 0, 0, gray, still->width, still->height);
     free(gray);
     if (rim)
         paint_rim(&canvas, rim);
     for (int bead = 0; bead < o->beads; ++bead)
         paint_path(&canvas, columns[bead], rows[bead], count, path_colours[bead]);
-    paint_crops(o, &canvas, look, still->height + 4);
+    paint_crops(o, &canvas, look, still->height + 4, stretch);
     status = write_picture(o, &canvas, error);
     free(canvas.pixels);
     return status;

@@ -118,6 +118,26 @@ fst_status follow_scale_read(const char *text, follow_scale *scale, fst_error *e
     return read_points(begin, scale, error);
 }
 
+fst_status follow_scales_read(const char *text, follow_scale scales[FST_FILM_SCALES],
+                              fst_film_scale told[FST_FILM_SCALES], int *count, fst_error *error)
+{
+    char one[256];
+    *count = 0;
+    for (const char *at = text; at; ++*count) {
+        const size_t length = strcspn(at, ";");
+        if (*count == FST_FILM_SCALES || length >= sizeof one)
+            return fst_fail(error, FST_BAD_INPUT, where, "there are more than %d scales, or one is too long",
+                            FST_FILM_SCALES);
+        (void)snprintf(one, sizeof one, "%.*s", (int)length, at);
+        (void)snprintf(told[*count].text, sizeof told->text, "%.63s", one + strspn(one, " "));
+        const fst_status status = follow_scale_read(one, &scales[*count], error);
+        if (status != FST_OK)
+            return status;
+        at = at[length] ? at + length + 1 : NULL;
+    }
+    return FST_OK;
+}
+
 /* ------------------------------------------------------------------ maps */
 
 void follow_plane_map(const follow_plane *plane, double column, double row, double *x, double *y)
@@ -129,13 +149,33 @@ void follow_plane_map(const follow_plane *plane, double column, double row, doub
     *y = out[1] / out[2];
 }
 
-double follow_plane_step(const follow_plane *plane, double column, double row)
+/* How a place changes over a pixel of the columns, then of the rows. */
+static void change_at(const follow_plane *plane, double column, double row, double change[2][2])
 {
     static const double beside[4][2] = {{-0.5, 0.0}, {0.5, 0.0}, {0.0, -0.5}, {0.0, 0.5}};
     double x[4], y[4];
     for (int i = 0; i < 4; ++i) /* half a pixel to each side */
         follow_plane_map(plane, column + beside[i][0], row + beside[i][1], &x[i], &y[i]);
-    return sqrt(fabs((x[1] - x[0]) * (y[3] - y[2]) - (y[1] - y[0]) * (x[3] - x[2])));
+    for (int i = 0; i < 2; ++i) {
+        change[i][0] = x[2 * i + 1] - x[2 * i];
+        change[i][1] = y[2 * i + 1] - y[2 * i];
+    }
+}
+
+double follow_plane_step(const follow_plane *plane, double column, double row)
+{
+    double c[2][2];
+    change_at(plane, column, row, c);
+    return sqrt(fabs(c[0][0] * c[1][1] - c[0][1] * c[1][0]));
+}
+
+double follow_plane_least_step(const follow_plane *plane, double column, double row)
+{
+    double c[2][2];
+    change_at(plane, column, row, c);
+    const double all = c[0][0] * c[0][0] + c[0][1] * c[0][1] + c[1][0] * c[1][0] + c[1][1] * c[1][1],
+                 area = c[0][0] * c[1][1] - c[0][1] * c[1][0];
+    return sqrt(0.5 * (all - sqrt(fmax(0.0, all * all - 4.0 * area * area))));
 }
 
 follow_plane follow_plane_even(double factor, double last_row)

@@ -6,7 +6,7 @@
 #ifndef FST_FOLLOW_PLANE_H
 #define FST_FOLLOW_PLANE_H
 
-#include <festoon/festoon.h>
+#include <festoon/film_tracks.h>
 
 typedef enum {
     FOLLOW_SCALE_NONE,  /* pixels */
@@ -27,6 +27,10 @@ typedef struct follow_scale {
  * "...=80x60mm"; pixels count from the top left, as in viewers of pictures. */
 fst_status follow_scale_read(const char *text, follow_scale *scale, fst_error *error);
 
+/* Read some of them, between which stand semicolons, and keep their words in `told`; *count is 1 or more. */
+fst_status follow_scales_read(const char *text, follow_scale scales[FST_FILM_SCALES],
+                              fst_film_scale told[FST_FILM_SCALES], int *count, fst_error *error);
+
 /* A homography: place = M (column, row, 1), divided by its third component. */
 typedef struct follow_plane {
     double m[3][3];
@@ -36,6 +40,9 @@ void follow_plane_map(const follow_plane *plane, double column, double row, doub
 
 /* mm (or whatever the plane has) that a pixel is at a place: the root of the area that it covers. */
 double follow_plane_step(const follow_plane *plane, double column, double row);
+
+/* The same in the direction in which a tilted plane is not foreshortened, as a ball is not. */
+double follow_plane_least_step(const follow_plane *plane, double column, double row);
 
 /* x = factor column, y = factor (last_row - row). */
 follow_plane follow_plane_even(double factor, double last_row);

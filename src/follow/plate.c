@@ -11,8 +11,7 @@
 #include <string.h>
 
 #define LEAST_COUNT 50.0
-/* The shortest focal length of a camera, in diagonals of its picture: 18 mm on a film of 43 mm. */
-#define SHORTEST 0.42
+#define ALIKE 4.0 /* frames that err alike */
 
 void follow_sizes_add(follow_sizes *sizes, double column, double row, double width)
 {
@@ -22,25 +21,42 @@ void follow_sizes_add(follow_sizes *sizes, double column, double row, double wid
             sizes->sum[i][j] += terms[i] * terms[j];
         sizes->right[i] += terms[i] * width;
     }
+    sizes->squares += width * width;
     sizes->count += 1.0;
 }
 
+/* The variance of a slope along a direction: what the widths scatter by about the straight line, through the
+ * inverse of the normal equations; neighbouring frames err alike, so that a few are worth one. */
+static double variance_of_slope(const follow_sizes *sizes, const double fitted[3], const double along[2])
+{
+    double a[9], b[3] = {0.0, along[0], along[1]}, left = sizes->squares;
+    for (int i = 0; i < 3; ++i)
+        left -= fitted[i] * sizes->right[i];
+    memcpy(a, sizes->sum, sizeof a);
+    if (!follow_solve(a, b, 3))
+        return INFINITY;
+    return ALIKE * fmax(0.0, left) / sizes->count * (along[0] * b[1] + along[1] * b[2]);
+}
+
 void follow_plate_horizon(const follow_sizes *sizes, const follow_ellipse *rim, int width, int height,
-                          double horizon[2])
+                          double horizon[2], double spread[2])
 {
     double a[9], b[3];
-    horizon[0] = horizon[1] = 0.0;
-    memcpy(a, sizes->sum, sizeof a);
-    memcpy(b, sizes->right, sizeof b);
-    if (sizes->count < LEAST_COUNT || !follow_solve(a, b, 3))
-        return;
-    /* From the middle of the sizes to the middle of the ellipse. */
-    const double here =
-        b[0] + b[1] * (rim->centre[0] - sizes->middle[0]) + b[2] * (rim->centre[1] - sizes->middle[1]);
     const double across[2] = {-sin(rim->angle), cos(rim->angle)}; /* along the shorter axis */
     const double flat = fmin(1.0, rim->axes[1] / rim->axes[0]);
-    const double most = sqrt(1.0 / (flat * flat) - 1.0) / (SHORTEST * hypot(width, height));
-    const double slope = fmax(-most, fmin(most, (b[1] * across[0] + b[2] * across[1]) / here));
-    horizon[0] = slope * across[0];
-    horizon[1] = slope * across[1];
+    const double most = sqrt(1.0 / (flat * flat) - 1.0) / (FOLLOW_SHORTEST_LENS * hypot(width, height));
+    double slope = 0.0, doubt = most / sqrt(3.0); /* anything up to the most, to either side */
+    memcpy(a, sizes->sum, sizeof a);
+    memcpy(b, sizes->right, sizeof b);
+    if (sizes->count >= LEAST_COUNT && follow_solve(a, b, 3)) {
+        /* From the middle of the sizes to the middle of the ellipse. */
+        const double here =
+            b[0] + b[1] * (rim->centre[0] - sizes->middle[0]) + b[2] * (rim->centre[1] - sizes->middle[1]);
+        slope = fmax(-most, fmin(most, (b[1] * across[0] + b[2] * across[1]) / here));
+        doubt = fmin(doubt, sqrt(variance_of_slope(sizes, b, across)) / fabs(here));
+    }
+    for (int i = 0; i < 2; ++i) {
+        horizon[i] = slope * across[i];
+        spread[i] = doubt * across[i];
+    }
 }

@@ -10,10 +10,14 @@
 #include "base/watch.h"
 #include "follow/decoder.h"
 
-#define DARK 16.0f /* gray levels: of less a ratio tells little */
-#define NEAR 0.08f /* part of the level within which a pixel counts as background */
+#define DARK 16.0f       /* gray levels: of less a ratio tells little */
+#define ALIKE 0.25       /* of the picture's gradient that a frame in the right place has */
+#define LEAST_SHAKE 0.15 /* pixels, rms: less is no shake */
+#define STEADY 0.03      /* pixels: shifting back once more changes nothing */
+#define NEAR 0.08f       /* part of the level within which a pixel counts as background */
 
 enum {
+    STEADY_ROUNDS = 5,
     BAND = 30,
     MOST_BANDS = 48,
     MOST_MEMORY = 1 << 29,
@@ -198,21 +202,13 @@ static double noise_of(const follow_still *s)
     return fmax(0.5, 1.4826 * (bin + 0.5) / 4.0);
 }
 
-fst_status follow_still_make(follow_still *still, const follow_source *source, const fst_progress *progress,
-                             fst_error *error)
+/* First as if all frames were equally bright, then with the brightness that each turned out to have. */
+static fst_status make_twice(follow_still *still, const fst_progress *progress, fst_error *error)
 {
-    *still = (follow_still){.width = 0};
-    fst_status status = read_samples(still, source, progress, error);
-    if (status != FST_OK)
-        return status;
     const size_t size = (size_t)still->width * (size_t)still->height, rows = (size_t)still->height;
-    still->gains = malloc(rows * (size_t)still->count * sizeof *still->gains);
-    if (!still->gains)
-        return fst_fail(error, FST_NO_MEMORY, source->path, "no memory for the brightness of its rows");
     for (size_t i = 0; i < rows * (size_t)still->count; ++i)
         still->gains[i] = 1.0f;
-    /* First as if all frames were equally bright, then with the brightness that each turned out to have. */
-    status = make_picture(still, 1.0, progress, 0.92, error);
+    fst_status status = make_picture(still, 1.0, progress, 0.92, error);
     for (int k = 0; k < still->count && status == FST_OK; ++k)
         follow_still_gains(still, still->samples + (size_t)k * size, still->gains + (size_t)k * rows);
     still->noise = noise_of(still);
@@ -222,6 +218,93 @@ fst_status follow_still_make(follow_still *still, const follow_source *source, c
         follow_still_gains(still, still->samples + (size_t)k * size, still->gains + (size_t)k * rows);
     still->noise = noise_of(still);
     return status;
+}
+
+/* ------------------------------------------------------------------ a camera that shakes */
+
+void follow_still_steady(const follow_still *still, follow_shake *shake, unsigned char *frame, float *room,
+                         double shift[2])
+{
+    double found[2] = {shift[0], shift[1]};
+    follow_still_gains(still, frame, room);
+    if (follow_shake_find(shake, frame, room, found) > ALIKE)
+        memcpy(shift, found, sizeof found);
+    follow_shake_undo(shake, room, shift, frame);
+}
+
+/* What comparing the samples with their picture says: the root mean square of their shifts, the greatest, and how many
+ * tell one, and are like the picture there. */
+typedef struct comparison {
+    double moved, most;
+    int found, alike;
+} comparison;
+
+/* Compare all samples with the picture, and shift them back where they moved by more than `least`. */
+static comparison compare_samples(follow_still *s, follow_shake *shake, double least)
+{
+    double shifts[FOLLOW_SAMPLES][2] = {{0.0}}, squares = 0.0;
+    comparison c = {.moved = NAN};
+    for (int k = 0; k < s->count; ++k) {
+        unsigned char *sample = s->samples + (size_t)k * (size_t)s->width * (size_t)s->height;
+        const double alike =
+            follow_shake_find(shake, sample, s->gains + (size_t)k * (size_t)s->height, shifts[k]);
+        c.found += !isnan(alike);
+        c.alike += alike > ALIKE;
+        squares += shifts[k][0] * shifts[k][0] + shifts[k][1] * shifts[k][1];
+        c.most = fmax(c.most, fmax(fabs(shifts[k][0]), fabs(shifts[k][1])));
+    }
+    if (c.found > s->count * 3 / 4)
+        c.moved = sqrt(0.5 * squares / c.found);
+    if (!(c.moved > least))
+        return c;
+    s->margin += (int)ceil(c.most);
+    shake->margin = s->margin;
+    for (int k = 0; k < s->count; ++k) {
+        unsigned char *sample = s->samples + (size_t)k * (size_t)s->width * (size_t)s->height;
+        const float *gains = s->gains + (size_t)k * (size_t)s->height;
+        double again[2] = {shifts[k][0], shifts[k][1]};
+        (void)follow_shake_find(shake, sample, gains, again); /* undoing takes the frame of the last search */
+        follow_shake_undo(shake, gains, shifts[k], sample);
+    }
+    return c;
+}
+
+/* Where the camera shook, shift the samples back, and make the picture anew, which becomes sharper by it. */
+static fst_status steady_samples(follow_still *s, const fst_progress *progress, fst_error *error)
+{
+    fst_status status = FST_OK;
+    for (int round = 0; round < STEADY_ROUNDS && status == FST_OK; ++round) {
+        follow_shake shake;
+        if (!follow_shake_begin(&shake, s->level, s->width, s->height, s->margin)) {
+            follow_shake_end(&shake);
+            return fst_fail(error, FST_NO_MEMORY, "track", "no memory for the shake of the camera");
+        }
+        const double least = round == 0 ? LEAST_SHAKE : STEADY;
+        const comparison c = compare_samples(s, &shake, least);
+        follow_shake_end(&shake);
+        s->unsteady = c.alike > s->count * 3 / 4 || round == 0 ? c.moved : INFINITY;
+        if (round == 0 && c.moved > least)
+            s->shake = c.moved;
+        if (!(c.moved > least))
+            break;
+        status = make_twice(s, progress, error);
+    }
+    return status;
+}
+
+fst_status follow_still_make(follow_still *still, const follow_source *source, const fst_progress *progress,
+                             fst_error *error)
+{
+    *still = (follow_still){.width = 0};
+    fst_status status = read_samples(still, source, progress, error);
+    if (status != FST_OK)
+        return status;
+    const size_t rows = (size_t)still->height;
+    still->gains = malloc(rows * (size_t)still->count * sizeof *still->gains);
+    if (!still->gains)
+        return fst_fail(error, FST_NO_MEMORY, source->path, "no memory for the brightness of its rows");
+    status = make_twice(still, progress, error);
+    return status == FST_OK ? steady_samples(still, progress, error) : status;
 }
 
 void follow_still_drop_samples(follow_still *still)

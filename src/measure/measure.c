@@ -248,6 +248,8 @@ fst_status fst_measure_track(fst_track *track, const fst_measure_options *option
         memcpy((char *)measured + rows[i].offset, &unknown, sizeof unknown);
     }
     (void)snprintf(measured->length_unit, sizeof measured->length_unit, "%s", track->length_unit);
+    if (track->scale_error > 0.0)
+        measured->scale_error = track->scale_error;
     fst_status status = check(options, track, error);
     if (status == FST_OK && track->rows < 2)
         status = fst_fail(error, FST_BAD_INPUT, "", "a track of %zu frames: nothing can be measured of it",

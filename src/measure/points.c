@@ -18,7 +18,9 @@
 
 enum {
     FREQUENCY_COLUMNS = 2, /* frequency and its error; those of the quantities follow, each with its error */
-    KNOWN_COLUMNS = FREQUENCY_COLUMNS + 2 * FST_MEASURED_COUNT,
+    PAIRED_COLUMNS = FREQUENCY_COLUMNS + 2 * FST_MEASURED_COUNT,
+    SCALE_COLUMN = PAIRED_COLUMNS, /* the last: the relative error of the scale of all lengths of a row */
+    KNOWN_COLUMNS,
     MOST_ROWS = 100000,
     LONGEST_FILE = 16 * 1024 * 1024
 };
@@ -56,11 +58,14 @@ static const fst_text_column known_columns[KNOWN_COLUMNS] = {
     {name, FST_UNIT_##unit, .needed = 0}, {name "_error", FST_UNIT_##unit, .needed = 0},
     FST_MEASURED_QUANTITIES(COLUMNS)
 #undef COLUMNS
+        {"scale_error", FST_UNIT_NUMBER, .needed = 0},
 };
 
 /* Where a column's number belongs in a row. */
 static double *place_of(fst_point *row, int known)
 {
+    if (known == SCALE_COLUMN)
+        return &row->scale_error;
     if (known < FREQUENCY_COLUMNS)
         return known ? &row->frequency_error : &row->frequency;
     const int what = (known - FREQUENCY_COLUMNS) / 2;
@@ -108,7 +113,7 @@ static fst_status check_columns(const reader *r)
 {
     char sentence[300];
     int quantities = 0;
-    for (int k = FREQUENCY_COLUMNS; k < KNOWN_COLUMNS; k += 2) {
+    for (int k = FREQUENCY_COLUMNS; k < PAIRED_COLUMNS; k += 2) {
         const fst_text_column *value = &r->columns[k], *its_error = &r->columns[k + 1];
         quantities += value->place > 0;
         if (value->place && !its_error->place) {
@@ -141,7 +146,7 @@ static fst_status check_row(const reader *r, fst_point *row)
     if (!(fabs(row->frequency) >= 1e-6 && fabs(row->frequency) <= 1e6))
         return fst_text_fail_cell(&r->table, &columns[0], NULL,
                                   "the magnet must turn, from 1e-6 to 1e6 times a second");
-    for (int k = 0; k < KNOWN_COLUMNS; k += 2) {
+    for (int k = 0; k < PAIRED_COLUMNS; k += 2) {
         const double value = *place_of(row, k), its_error = *place_of(row, k + 1);
         if (its_error <= 0.0)
             return fst_text_fail_cell(&r->table, &columns[k + 1], fst_text_cell(&r->table, &columns[k + 1]),
@@ -152,6 +157,10 @@ static fst_status check_row(const reader *r, fst_point *row)
                 isnan(its_error) ? "the error of this number is empty; leave out both or none"
                                  : "the number is empty, but its error is there; leave out both or none");
     }
+    if (row->scale_error <= 0.0 || row->scale_error >= 1.0)
+        return fst_text_fail_cell(&r->table, &columns[SCALE_COLUMN],
+                                  fst_text_cell(&r->table, &columns[SCALE_COLUMN]),
+                                  "is no relative error: more than 0 and less than 1, as 0.004");
     if (row->value[FST_MEASURED_MEAN_R] <= 0.0 || row->value[FST_MEASURED_STD_R] < 0.0) {
         const int what = row->value[FST_MEASURED_MEAN_R] <= 0.0 ? FST_MEASURED_MEAN_R : FST_MEASURED_STD_R;
         return fst_text_fail_cell(&r->table, &columns[FREQUENCY_COLUMNS + 2 * what], NULL,
@@ -239,7 +248,8 @@ fst_status fst_point_of(const fst_measurement *m, double drive, fst_point *row, 
                                                   {length * m->std_r, length * m->std_r_error},
                                                   {m->bead_frequency_hz, m->bead_frequency_hz_error}};
     *row = (fst_point){.frequency = told ? m->drive_from_track_hz : fabs(drive),
-                       .frequency_error = told ? m->drive_from_track_hz_error : NAN};
+                       .frequency_error = told ? m->drive_from_track_hz_error : NAN,
+                       .scale_error = m->scale_error};
     for (int q = 0; q < FST_MEASURED_COUNT; ++q) {
         const int whole = isfinite(values[q][0]) && values[q][1] > 0;
         row->value[q] = whole ? values[q][0] : NAN;
@@ -304,9 +314,11 @@ fst_status fst_points_write(const char *path, const fst_points *points, fst_erro
     int written[KNOWN_COLUMNS];
     fst_whole_file file;
     for (int k = 0; k < KNOWN_COLUMNS; ++k)
-        written[k] = k != 1; /* the error of the frequency only where one is known */
-    for (size_t i = 0; i < points->count; ++i)
+        written[k] = k != 1 && k != SCALE_COLUMN; /* errors of frequency and scale only where one is known */
+    for (size_t i = 0; i < points->count; ++i) {
         written[1] |= isfinite(points->rows[i].frequency_error);
+        written[SCALE_COLUMN] |= points->rows[i].scale_error > 0.0;
+    }
     fst_status status = fst_whole_file_open(&file, path, error);
     if (status != FST_OK)
         return status;

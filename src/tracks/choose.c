@@ -74,6 +74,7 @@ static fst_status choose_unit(choice *c, fst_track *track, fst_error *error)
     const char *says = c->raw->length_unit;
     const double metres = track_length_unit(says);
     c->scale = 1.0;
+    track->scale_error = isfinite(c->options->scale) ? c->options->scale_error : c->raw->scale_error;
     if (isfinite(c->options->scale)) {
         const char *unit = c->options->scale_unit ? c->options->scale_unit : "mm";
         const double of_unit = track_is_pixel(unit) ? 1.0 : track_length_unit(unit);
@@ -290,10 +291,12 @@ static char *tell(const choice *c, const fst_track *track, int of_all)
                       isfinite(c->options->fps) ? " as given" : "");
     else
         (void)fputs("no clock", out);
-    (void)fprintf(out, ", lengths in %s%s, y %s%s%s", track->length_unit,
-                  c->scale_replaces ? " by the scale given, which replaces that of the file" : "",
-                  c->raw->y_down ? "down in the file (turned round)" : "up", c->raw->remark[0] ? "; " : "",
-                  c->raw->remark);
+    (void)fprintf(out, ", lengths in %s%s", track->length_unit,
+                  c->scale_replaces ? " by the scale given, which replaces that of the file" : "");
+    if (track->scale_error > 0.0)
+        (void)fprintf(out, ", all wrong by the same %.2g %% or so", 100.0 * track->scale_error);
+    (void)fprintf(out, ", y %s%s%s", c->raw->y_down ? "down in the file (turned round)" : "up",
+                  c->raw->remark[0] ? "; " : "", c->raw->remark);
     return fst_print_end(&printed);
 }
 

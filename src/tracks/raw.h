@@ -23,6 +23,9 @@ typedef struct track_spot {
     int doubts;   /* of fst_track */
 } track_spot;
 
+/* How the comment of festoon's own tracks begins that has the relative error of the scale. */
+#define TRACK_SCALE_ERROR "# scale_error: "
+
 enum { TRACK_NAME_SIZE = 64, TRACK_MOST_TRACKS = 65536 };
 
 typedef struct track_raw {
@@ -34,6 +37,7 @@ typedef struct track_raw {
     char length_unit[32]; /* as the file writes it; "": it does not say */
     double time_unit;     /* s that a unit of `t` lasts */
     double interval;      /* s from frame to frame, as the file says; NAN: it does not */
+    double scale_error;   /* relative, of the unit of length, as the file says; 0: it does not */
     int y_down;
     int is_whole;     /* all beads of a film, whose tracks belong together */
     char format[64];  /* for a person: "TrackMate, CSV" */

@@ -7,6 +7,7 @@
 #include "base/grow.h"
 #include "base/number.h"
 #include "host/whole_file.h"
+#include "tracks/raw.h"
 
 void fst_track_free(fst_track *track)
 {
@@ -67,6 +68,10 @@ fst_status fst_tracks_write(const char *path, const fst_track *track, int count,
     const fst_c_locale locale = fst_c_locale_enter();
     const int timed = track->rows == 0 || isfinite(track->t[0]);
     const char *unit = track->length_unit[0] ? track->length_unit : "px";
+    if (track->scale_error > 0.0) {
+        (void)fputs(TRACK_SCALE_ERROR, file.stream);
+        put(file.stream, track->scale_error, '\n');
+    }
     (void)fprintf(file.stream, "frame,%sx [%s],y [%s]%s\n", timed ? "t [s]," : "", unit, unit,
                   count > 1 ? ",track,doubts" : "");
     for (size_t i = 0; i < track->rows; ++i)

@@ -8,6 +8,7 @@ labels: slow"""
 
 import math
 import os
+import re
 import shutil
 import sys
 import unittest
@@ -54,6 +55,22 @@ class Track(films.OnFilms):
             self.assertAlmostEqual(b[1], a[0] / 30, places=9)
             self.assertAlmostEqual(b[2], 0.5 * a[2], places=9)
             self.assertAlmostEqual(b[3], 0.5 * a[3], places=9)
+
+    def test_errors_of_scales(self):
+        """The scale's error is told and stored (measure reads it back: test_measure_program.py); scales that contradict each other are told."""
+        distance = self.facts.split("seen from ")[1].split(",")[0]
+        out, done = self.track(self.folder / "a.mp4", "--scale", "plate 120 mm; bead 5 mm", "--distance", distance)
+        found = re.findall(r"([\d.]+) mm a pixel in the middle of the path, \+- ([\d.]+) % \((.*)\)", done.stdout)
+        self.assertEqual([words for _, _, words in found], ["plate 120 mm", "bead 5 mm"])
+        self.assertNotIn("contradict", done.stderr)
+        self.assertLess(abs(float(found[1][0]) / float(found[0][0]) - 1), 0.01 * float(found[1][1]))
+        first = out.read_text().splitlines()[0]
+        share = float(first.removeprefix("# scale_error: "))
+        self.assertAlmostEqual(100 * share, float(found[0][1]), delta=0.02)
+        _, done = self.track(self.folder / "a.mp4", "--scale", "bead 6 mm;plate 120 mm", "--distance", distance)
+        self.assertRegex(done.stderr, r"contradict each other: .* by \"bead 6 mm\", which is used, and .* by \"plate 120 mm\"")
+        self.refused(self.folder / "a.mp4", "no scale", "--scale", "plate 120 mm;")
+        self.refused(self.folder / "a.mp4", "more than 4", "--scale", ";".join(["bead 5 mm"] * 5))
 
     def test_lists_of_other_files_are_no_films(self):
         """A playlist that names a film is not followed."""

@@ -7,6 +7,8 @@ tests: follow/follow.c follow/decoder.c follow/source.c follow/still.c follow/pl
 labels: long"""
 
 import os
+import random
+import re
 import shutil
 import signal
 import subprocess
@@ -84,6 +86,31 @@ class Films(films.OnFilms):
         self.refused(self.folder / "two.mp4", "two things|one bead")
         ffmpeg("-f", "lavfi", "-i", "sine=d=1", self.folder / "sound.mp4")
         self.refused(self.folder / "sound.mp4", "no pictures")
+
+    def test_errors_of_scales(self):
+        """Of films by many cameras, the scales by the plate and by the bead are within their errors of the truth, mostly; and
+        the errors are no larger than half a pixel or so makes them."""
+        chance = random.Random(3)
+        within, shares = {"plate 120 mm": 0, "bead 5 mm": 0}, []
+        for seed in range(8):
+            film = self.folder / "s.mp4"
+            facts = films.film(self.path, film, "--size", chance.choice(("320x240", "480x270", "640x360")), "--seed", seed,
+                               "--tilt", f"{chance.uniform(0, 25):.1f}deg", "--side", f"{chance.uniform(0, 360):.0f}deg",
+                               "--noise", f"{chance.uniform(0, 5):.1f}", "--exposure", chance.choice(("1ms", "3ms")),
+                               "--uneven", f"{chance.uniform(0, 0.5):.2f}", "--distance",
+                               f"{chance.uniform(160, 500):.0f}mm")
+            distance = facts.split("seen from ")[1].split(",")[0]
+            out, done = self.track(film, "--scale", ";".join(within), "--distance", distance)
+            self.assertNotIn("contradict", done.stderr)
+            found = re.findall(r"([\d.]+) mm a pixel in the middle of the path, \+- ([\d.e-]+) % \((.*)\)", done.stdout)
+            true = float(found[0][0]) / compare(out, self.folder / "s.truth.csv")["ratio"]
+            for value, share, words in found:
+                within[words] += abs(float(value) / true - 1) < 0.01 * float(share)
+                shares.append(float(share))
+        for words, count in within.items():
+            self.assertGreaterEqual(count, 5, words)
+        self.assertLess(max(shares[::2]), 0.3)
+        self.assertLess(max(shares[1::2]), 5)
 
     def follows(self, name, rms, *options, trajectory=None):
         """A film by such a camera: nothing is lost, and places are within `rms` pixels."""

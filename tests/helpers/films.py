@@ -47,9 +47,9 @@ def film(trajectory_file, path, *options):
 
 
 def read(path):
-    """Names of columns, and rows with NAN for empty cells."""
+    """Names of columns, and rows with NAN for empty cells, without comments."""
     with open(path, newline="", encoding="utf-8") as file:
-        rows = list(csv.reader(file))
+        rows = list(csv.reader(line for line in file if not line.startswith("#")))
     return rows[0], [[float(cell) if cell else math.nan for cell in row] for row in rows[1:]]
 
 

@@ -44,6 +44,7 @@ static void test_written_table_is_read_back(void **state)
                               i % 3 ? part[1] * 0.01 : NAN,
                               {0.02 * part[2], i % 5 ? 1e-4 * part[3] : NAN, -3.0 * part[4]},
                               {1e-5 * part[5], i % 5 ? 1e-7 * part[6] : NAN, 1e-3 * part[7]},
+                              i % 4 ? part[2] * 0.05 : NAN,
                               0};
     }
     fst_points written = {.rows = rows, .count = 300}, points;
@@ -54,6 +55,7 @@ static void test_written_table_is_read_back(void **state)
     for (size_t i = 0; i < points.count; ++i) {
         assert_same(points.rows[i].frequency, rows[i].frequency);
         assert_same(points.rows[i].frequency_error, rows[i].frequency_error);
+        assert_same(points.rows[i].scale_error, rows[i].scale_error);
         for (int q = 0; q < FST_MEASURED_COUNT; ++q) {
             assert_same(points.rows[i].value[q], rows[i].value[q]);
             assert_same(points.rows[i].error[q], rows[i].error[q]);

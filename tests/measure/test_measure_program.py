@@ -57,6 +57,34 @@ class Points(Program):
             self.assertAlmostEqual(float(row["std_r_error [mm]"]), found["std_r_error"], places=9)
             self.assertAlmostEqual(float(row["bead_frequency [Hz]"]), -tracks.BEAD, delta=0.01)
 
+    def test_error_of_the_scale(self):
+        """What the track's comment says of it comes back in JSON, in words, and in the table of points."""
+        rows = tracks.places()
+        exact = self.write("exact.csv", tracks.own(rows, unit="mm"))
+        rough = self.write("rough.csv", "# scale_error: 0.0125\n" + tracks.own(rows, unit="mm"))
+        plain, found = (json.loads(self.festoon("measure", name, "--json").stdout) for name in (exact, rough))
+        self.assertEqual((plain.pop("scale_error"), found.pop("scale_error")), (None, 0.0125))
+        self.assertEqual(plain, found)
+        self.assertRegex(self.festoon("measure", rough).stdout, r"\+- 1 mm by the scale, which is known to 1\.2 %")
+        self.assertNotIn("by the scale", self.festoon("measure", exact).stdout)
+        out = self.path("points.csv")
+        self.festoon("measure", exact, rough, "-o", out)
+        with open(out, encoding="utf-8") as table:
+            self.assertEqual([row["scale_error [1]"] for row in csv.DictReader(table)], ["", "0.0125"])
+        self.festoon("measure", exact, "-o", out)
+        with open(out, encoding="utf-8") as table:
+            self.assertNotIn("scale_error", table.readline())
+        for scale, error in (("2mm", None), ("2+-0.1mm", 0.05)):
+            self.assertEqual(json.loads(self.festoon("measure", rough, "--scale", scale, "--json").stdout)["scale_error"], error)
+        for wrong in ("2+-mm", "2+-3mm", "2+--1mm", "0+-1mm", "2+-0.1"):
+            self.assertIn("--scale", self.festoon("measure", rough, "--scale", wrong, status=2).stderr)
+        for wrong in ("much", "-0.1", "1", ""):
+            bad = self.write("bad.csv", f"# scale_error: {wrong}\n" + tracks.own(rows, unit="mm"))
+            self.assertIn("bad.csv:1", self.festoon("measure", bad, status=2).stderr)
+        self.assertIn("no relative error", self.festoon("fit", self.write(
+            "bad.csv", "frequency [Hz],mean_r [mm],mean_r_error [mm],scale_error\n10,20,1,2\n"), "--free", "model.kappa",
+            status=2).stderr)
+
     def test_each_track_its_own(self):
         """Of tracks that do not tell the drive the table has what was given, each its own; a pixel is worth what --scale
         says."""

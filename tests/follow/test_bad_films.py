@@ -1,0 +1,81 @@
+"""`festoon track` on films in bad light and by a camera that shakes: a shake is followed, and the track does not have it;
+what cannot be followed is refused with the reason, camera or light.
+
+Without ffmpeg the test is skipped.
+
+tests: follow/still.c follow/learn.c follow/shake.c follow/overlay.c cli/track.c
+labels: slow"""
+
+import re
+import sys
+import unittest
+
+import films
+from films import compare, ffmpeg
+
+if not films.can_film():
+    sys.exit(77)
+
+
+class BadFilms(films.OnFilms):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.good = cls.folder / "good.mp4"
+        films.film(cls.path, cls.good, "--size", "480x360", "--noise", "1", "--quality", "0", "--readout", "0ms",
+                   "--to", "3")
+
+    def shaken(self, size):
+        """The film by a camera that moves by so many pixels (rms, in both directions), to a quarter of a pixel."""
+        film = self.folder / "shaken.mp4"
+        room = 4 * int(2 * size + 4)
+        ffmpeg("-i", self.good, "-vf", f"scale=4*iw:4*ih:flags=bicubic,crop=iw-{2 * room}:ih-{2 * room}:"
+               f"x='{room}+{5.66 * size}*sin(n*0.37+sin(n*0.05))':y='{room}+{5.66 * size}*sin(n*0.53+1+2*sin(n*0.031))',"
+               "scale=iw/4:ih/4:flags=area", "-crf", "16", film)
+        return film
+
+    def test_shakes_are_followed(self):
+        """From half a pixel to eight: the track is within 0.2 pixels of the truth, but for a constant."""
+        for size in (0.5, 3, 8):
+            out, done = self.track(self.shaken(size))
+            found = compare(out, self.folder / "good.truth.csv")
+            self.assertEqual((found["lost"], found["rows"]), (0, found["true_rows"]))
+            self.assertLess(found["rms"], 0.15, size)
+            told = float(re.search(r"camera      moved by ([\d.]+) pixels", done.stdout)[1])
+            self.assertAlmostEqual(told / size, 1.0, delta=0.25)
+
+    def test_a_steady_camera(self):
+        """Nothing is said of a shake, and nothing of the light."""
+        for film in (self.good, self.folder / "a.mp4"):
+            out, done = self.track(film)
+            self.assertNotIn("camera  ", done.stdout)
+            self.assertNotIn("gray levels of 255 only", done.stderr)
+        films.film(self.path, self.folder / "lamps.mp4", "--size", "480x360", "--flicker", "0.3", "--uneven", "0.5",
+                   "--noise", "6", "--to", "3")
+        self.assertNotIn("camera  ", self.track(self.folder / "lamps.mp4")[1].stdout)
+
+    def test_too_much_shake(self):
+        self.refused(self.shaken(45), "the camera moves|pixels|fix the camera")
+
+    def test_bad_light(self):
+        """Dark, and so noisy that the bead drowns: both are light, and the sentence has the levels and the noise."""
+        film = self.folder / "light.mp4"
+        for bright, noise in ((0.04, 0), (0.15, 30), (0.4, 60), (1, 100)):
+            ffmpeg("-i", self.good, "-vf", f"lutyuv=y=16+(val-16)*{bright},noise=alls={noise}:allf=t", "-crf", "16", film)
+            self.refused(film, "too little light|gray levels|noise|more light")
+
+    def test_a_dim_film(self):
+        """It is tracked with a warning, and its picture is shown brighter."""
+        film, picture = self.folder / "dim.mp4", self.folder / "dim.png"
+        ffmpeg("-i", self.good, "-vf", "lutyuv=y=16+(val-16)*0.12", "-crf", "10", film)
+        _, done = self.track(film, "--picture", picture)
+        self.assertRegex(done.stderr, r"differs from the plate by \d+ gray levels of 255 only, where the noise of a pixel is")
+        ffmpeg("-i", picture, "-pix_fmt", "gray", self.folder / "dim.pgm")
+        ffmpeg("-i", film, "-frames:v", "1", "-pix_fmt", "gray", self.folder / "frame.pgm")
+        shown, filmed = (max((self.folder / name).read_bytes()[20:]) for name in ("dim.pgm", "frame.pgm"))
+        self.assertGreater(shown, 200)
+        self.assertLess(filmed, 60)
+
+
+if __name__ == "__main__":
+    unittest.main()

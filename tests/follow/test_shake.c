@@ -1,0 +1,126 @@
+/* The shift of a frame against a picture with a texture, however the light has changed and wherever the bead is; and a
+ * plain picture, which tells nothing.
+ * tests: follow/shake.c follow/still.c */
+#include "numeric.h"
+
+#include <stdlib.h>
+
+#include "base/chance.h"
+#include "follow/shake.h"
+#include "follow/still.h"
+
+enum { WIDTH = 320, HEIGHT = 240, WAVES = 60 };
+
+static double even(uint64_t *chance)
+{
+    return (double)(fst_draw(chance) >> 11) * 0x1p-53;
+}
+
+/* A texture that is known between its pixels too. */
+typedef struct texture {
+    double waves[WAVES][4]; /* across, down, phase, size */
+} texture;
+
+static texture make_texture(uint64_t *chance, double size)
+{
+    texture t;
+    for (int i = 0; i < WAVES; ++i) {
+        const double turn = 6.28 * even(chance), wave = 0.02 * exp(3.2 * even(chance)); /* from large to fine */
+        t.waves[i][0] = wave * cos(turn);
+        t.waves[i][1] = wave * sin(turn);
+        t.waves[i][2] = 6.28 * even(chance);
+        t.waves[i][3] = size * even(chance);
+    }
+    return t;
+}
+
+static double level_at(const texture *t, double x, double y)
+{
+    double sum = 150.0;
+    for (int i = 0; i < WAVES; ++i)
+        sum += t->waves[i][3] * sin(t->waves[i][0] * x + t->waves[i][1] * y + t->waves[i][2]);
+    return sum;
+}
+
+static float picture[WIDTH * HEIGHT], gains[HEIGHT];
+static unsigned char frame[WIDTH * HEIGHT];
+
+/* A frame that is shifted, dimmed, noisy, and has a bead on it. */
+static void film(const texture *t, const double shift[2], double dim, double noise, uint64_t *chance)
+{
+    for (int row = 0; row < HEIGHT; ++row)
+        for (int column = 0; column < WIDTH; ++column) {
+            const int bead = hypot(column - 200.0, row - 90.0) < 15.0;
+            const double level = bead ? 40.0 : level_at(t, column - shift[0], row - shift[1]);
+            frame[row * WIDTH + column] =
+                (unsigned char)fmax(0.0, fmin(255.0, dim * level + noise * (even(chance) - 0.5) + 0.5));
+        }
+}
+
+/* A texture of three gray levels tells shifts of up to 15 pixels to a twentieth of one, a faint one to a tenth; shifted back, the frame is the
+ * picture again. */
+static void shifts(void **state)
+{
+    (void)state;
+    uint64_t chance = 7;
+    for (int trial = 0; trial < 24; ++trial) {
+        const texture t = make_texture(&chance, trial % 2 ? 1.0 : 4.0);
+        const double size = trial < 12 ? 3.0 : 15.0,
+                     shift[2] = {size * (2.0 * even(&chance) - 1.0), size * (2.0 * even(&chance) - 1.0)};
+        const double dim = trial % 3 ? 1.0 : 0.7;
+        double found[2] = {0.0, 0.0}, squares = 0.0;
+        follow_shake shake;
+        int count = 0;
+        for (int i = 0; i < WIDTH * HEIGHT; ++i)
+            picture[i] = (float)level_at(&t, i % WIDTH, i / WIDTH);
+        for (int row = 0; row < HEIGHT; ++row)
+            gains[row] = (float)dim;
+        film(&t, shift, dim, 6.0, &chance);
+        assert_true(follow_shake_begin(&shake, picture, WIDTH, HEIGHT, 16));
+        assert_true(follow_shake_find(&shake, frame, gains, found) > 0.6);
+        CHECK_CLOSE(found[0], shift[0], trial % 2 ? 0.1 : 0.05);
+        CHECK_CLOSE(found[1], shift[1], trial % 2 ? 0.1 : 0.05);
+        follow_shake_undo(&shake, gains, found, frame);
+        for (int row = 0; row < HEIGHT; ++row)
+            for (int column = 0; column < WIDTH; ++column) {
+                const double off = frame[row * WIDTH + column] / dim - (double)picture[row * WIDTH + column];
+                const int margin = row < 16 || column < 16 || row >= HEIGHT - 16 || column >= WIDTH - 16;
+                if (margin)
+                    assert_true(fabs(off) < 1.0);
+                if (!margin && hypot(column + shift[0] - 200.0, row + shift[1] - 90.0) > 17.0) {
+                    squares += off * off;
+                    ++count;
+                }
+            }
+        assert_true(sqrt(squares / count) < 2.5);
+        follow_shake_end(&shake);
+    }
+}
+
+static void plain_pictures(void **state)
+{
+    (void)state;
+    uint64_t chance = 9;
+    const texture none = make_texture(&chance, 0.0);
+    const double shift[2] = {2.0, 1.0};
+    double found[2] = {0.5, -0.5};
+    follow_shake shake;
+    for (int i = 0; i < WIDTH * HEIGHT; ++i)
+        picture[i] = 150.0f;
+    for (int row = 0; row < HEIGHT; ++row)
+        gains[row] = 1.0f;
+    film(&none, shift, 1.0, 6.0, &chance);
+    assert_true(follow_shake_begin(&shake, picture, WIDTH, HEIGHT, 16));
+    assert_true(isnan(follow_shake_find(&shake, frame, gains, found)));
+    assert_true(found[0] == 0.5 && found[1] == -0.5);
+    follow_shake_end(&shake);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shifts),
+        cmocka_unit_test(plain_pictures),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
