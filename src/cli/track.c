@@ -1,6 +1,7 @@
 /* track.c - festoon track: where the bead is in every frame of a film. */
 #include <math.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "cli/command.h"
 #include "cli/terminal.h"
@@ -167,39 +168,122 @@ static void warn(const fst_film_track_report *r)
             r->doubts[0].frame);
 }
 
+static fst_status track_film(const char *path, fst_film_track_options *film, fst_film_track_report *report,
+                             fst_error *error)
+{
+    fst_track tracks[FST_TRACKED_BEADS];
+    progress_line line;
+    const fst_progress progress = {&line, progress_tell};
+    film->progress = &progress;
+    progress_begin(&line);
+    const fst_status status = fst_film_track(path, film, tracks, report, error);
+    progress_end(&line);
+    for (int bead = 0; bead < film->beads && status == FST_OK; ++bead)
+        fst_track_free(&tracks[bead]);
+    return status;
+}
+
+/* ------------------------------------------------------------------ several films */
+
+/* FOLDER/NAME.csv of the film .../NAME.mp4. */
+static void name_track(const char *folder, const char *film, char text[SHOWN_SIZE])
+{
+    size_t length = strlen(film);
+    while (length > 1 && film[length - 1] == '/')
+        --length;
+    size_t begin = length, end = length;
+    while (begin > 0 && film[begin - 1] != '/')
+        --begin;
+    for (size_t i = begin + 1; i < length; ++i)
+        end = film[i] == '.' ? i : end;
+    (void)snprintf(text, SHOWN_SIZE, "%.2000s/%.*s.csv", folder, (int)(end - begin > 2000 ? 2000 : end - begin),
+                   film + begin);
+}
+
+static fst_status check_several(const arguments *given, const char *folder, fst_error *error)
+{
+    static const char *const of_one[] = {"overlay", "picture"};
+    char one[SHOWN_SIZE], other[SHOWN_SIZE];
+    struct stat there;
+    for (size_t i = 0; i < sizeof of_one / sizeof *of_one; ++i)
+        if (option_value(given, of_one[i]))
+            return fail(error, FST_BAD_INPUT, "",
+                        "--%s is of one film: leave it away, or track the films one by one", of_one[i]);
+    if (stat(folder, &there) != 0 || !S_ISDIR(there.st_mode))
+        return fail(error, FST_BAD_INPUT, folder,
+                    "this is no folder, into which the tracks of several films would go");
+    for (int i = 0; i < given->operand_count; ++i)
+        for (int k = 0; k < i; ++k) {
+            name_track(folder, given->operands[i], one);
+            name_track(folder, given->operands[k], other);
+            if (strcmp(one, other) == 0)
+                return fail(error, FST_BAD_INPUT, given->operands[i],
+                            "its track would be %.200s, as that of %.200s", one, given->operands[k]);
+        }
+    return FST_OK;
+}
+
+/* A film that fails is told, and the next one follows. */
+static fst_status track_several(const arguments *given, fst_film_track_options *film, const char *folder,
+                                FILE *out, fst_error *error)
+{
+    fst_status status = check_several(given, folder, error), failed = FST_OK;
+    if (status != FST_OK)
+        return status;
+    (void)fprintf(out, "%8s %10s %6s %10s %12s  %s\n", "frames", "fps", "lost", "bead [px]", "mm a pixel",
+                  "track");
+    for (int i = 0; i < given->operand_count; ++i) {
+        char to[SHOWN_SIZE], text[SHOWN_SIZE];
+        fst_film_track_report report;
+        name_track(folder, given->operands[i], to);
+        film->csv = to;
+        status = track_film(given->operands[i], film, &report, error);
+        if (status == FST_INTERRUPTED || status == FST_NO_MEMORY)
+            return status;
+        if (status != FST_OK) {
+            failed = failed ? failed : status;
+            (void)fprintf(stderr, "festoon: %s: %s\n", shown(error->where, text), error->sentence);
+            continue;
+        }
+        char scale[32] = "-";
+        if (!isnan(report.scale))
+            (void)snprintf(scale, sizeof scale, "%.5g", report.scale);
+        (void)fprintf(out, "%8d %10.6g %6d %10.1f %12s  %s\n", report.frames, report.fps, report.lost,
+                      report.diameter, scale, shown(to, text));
+        tell_written(to, "");
+        warn(&report);
+    }
+    if (failed != FST_OK)
+        return fail(error, failed, "", "not all films could be tracked, as told above");
+    return FST_OK;
+}
+
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     fst_film_track_options film;
     fst_film_track_report report;
-    fst_track tracks[FST_TRACKED_BEADS];
-    progress_line line;
-    const fst_progress progress = {&line, progress_tell};
     const char *path = operand(given), *to = option_value(given, "output");
     if (!path)
         return fail(error, FST_BAD_INPUT, "", "a film is missing, or a folder of images");
     if (!to)
         return fail(error, FST_BAD_INPUT, "", "say where the track goes: -o TRACK.csv");
     fst_status status = read_options(given, &film, error);
-    if (status != FST_OK)
-        return status;
-    film.progress = &progress;
+    if (status == FST_OK && given->operand_count > 1)
+        return track_several(given, &film, to, out, error);
     film.csv = to;
-    progress_begin(&line);
-    status = fst_film_track(path, &film, tracks, &report, error);
-    progress_end(&line);
+    if (status == FST_OK)
+        status = track_film(path, &film, &report, error);
     if (status != FST_OK)
         return status;
     print_report(&report, out);
     warn(&report);
     tell_written(to, "");
-    for (int bead = 0; bead < film.beads; ++bead)
-        fst_track_free(&tracks[bead]);
     return FST_OK;
 }
 
 const command track_command = {
     .name = "track",
-    .synopsis = "FILM|FOLDER -o TRACK.csv [--scale SCALE] [options]",
+    .synopsis = "FILM|FOLDER... -o TRACK.csv|FOLDER [--scale SCALE] [options]",
     .summary = "Find the bead, or several, in every frame of a film, for festoon measure",
     .details =
         "FILM is what ffmpeg reads of mp4, mov, webm, gif, avi ...; FOLDER has images (PNG, JPEG, BMP, PGM, "
@@ -209,9 +293,11 @@ const command track_command = {
         "or brighter than the plate.  With --beads a row is a bead in a frame: column track has its name, "
         "doubts how\n"
         "often until there it may have exchanged it with another one's.  Pixels of a scale count from the top "
-        "left, as in viewers of pictures.\n",
+        "left, as in viewers of pictures.  Several films have their tracks in the folder behind -o, under "
+        "their\n"
+        "names, and a table tells of them.\n",
     .options = options,
-    .most_operands = 1,
+    .most_operands = OPERAND_LIMIT,
     .has_helpers = 1,
     .perform = perform,
 };

@@ -147,6 +147,33 @@ class Track(films.OnFilms):
         self.assertEqual((self.folder / "p%d.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
         self.assertEqual(compare(self.folder / "o%d.csv", self.folder / "a.truth.csv")["lost"], 0)
 
+    def test_several_films(self):
+        """A table, and the tracks that each film has alone; one that fails is told, and the others are there."""
+        shutil.copy(self.folder / "a.mp4", self.folder / "b.c.mp4")
+        alone = self.track(self.folder / "a.mp4")[0].read_bytes()
+        (self.folder / "to").mkdir()
+        films_of_two = [self.folder / "a.mp4", self.folder / "b.c.mp4"]
+        done = run("track", *films_of_two, "-o", self.folder / "to")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        table = [line.split() for line in done.stdout.splitlines()]
+        rows = alone.count(b"\n") - 1
+        self.assertEqual([line[:3] + line[4:] for line in table[1:]],
+                         [[str(rows), "240", "0", "-", str(self.folder / "to" / name)] for name in ("a.csv", "b.c.csv")])
+        for name in ("a.csv", "b.c.csv"):
+            self.assertEqual((self.folder / "to" / name).read_bytes(), alone)
+            (self.folder / "to" / name).unlink()
+        (self.folder / "none.mp4").write_bytes(b"nothing")
+        done = run("track", self.folder / "none.mp4", *films_of_two, "-o", self.folder / "to")
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertRegex(done.stderr, r"none\.mp4: .*\n(?s:.*)wrote .*b\.c\.csv(?s:.*)not all films could be tracked")
+        self.assertEqual((self.folder / "to" / "b.c.csv").read_bytes(), alone)
+        for words, wanted in [([*films_of_two, "-o", self.folder / "o.csv"], "no folder"),
+                              ([*films_of_two, self.folder / "to" / ".." / "a.mp4", "-o", self.folder / "to"], "as that of"),
+                              ([*films_of_two, "-o", self.folder / "to", "--picture", "p.png"], "--picture is of one film")]:
+            done = run("track", *words)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn(wanted, done.stderr)
+
     def test_no_bead(self):
         ffmpeg("-f", "lavfi", "-i", "color=gray:s=160x120:d=1,noise=alls=8", self.folder / "blank.mp4")
         self.refused(self.folder / "blank.mp4", "no bead was found|gray levels")
