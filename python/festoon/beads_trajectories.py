@@ -11,9 +11,10 @@ from ._progress import Progress
 from ._quantities import Scales, units_of
 from .bead import Bead, Path
 from .beads import Beads
+from .films import Filmed
 
 
-class BeadsTrajectory(Told):
+class BeadsTrajectory(Filmed, Told):
     """The samples of a run of several beads, or of one in a world, scaled (l, 1/gamma).
 
     >>> pair = Beads(beads=[{"start__phi": 3}, {"start__phi": 183}], frequency="30 Hz", run__periods=2, run__discard=1)

@@ -1,6 +1,8 @@
 """Films of a trajectory, and the track of a bead in a film."""
 
+import base64
 import os
+import tempfile
 from typing import Any, Dict, Optional, Union
 
 from ._native import Watch, ffi, lib, options_of, path_bytes, text_of
@@ -20,6 +22,60 @@ def movie(samples: Any, path: Path, progress: Progress, **given: Any) -> None:
         of_beads = ffi.typeof(table) is ffi.typeof("fst_beads_table *")
         watch.call(lib.fst_film_beads if of_beads else lib.fst_film, table, path_bytes(path), options)
     del arrays, kept
+
+
+class Animation:
+    """A film (mp4) that lies in the notebook itself; save() writes it as a file."""
+
+    def __init__(self, film: bytes, width: int) -> None:
+        self.film, self.width = film, width
+
+    def save(self, path: Path) -> None:
+        """Write the film."""
+        with open(path, "wb") as file:
+            file.write(self.film)
+
+    def __repr__(self) -> str:
+        return f"Animation: {len(self.film)} bytes of mp4"
+
+    def _repr_html_(self) -> str:
+        source = base64.b64encode(self.film).decode("ascii")
+        return f'<video controls loop width="{self.width}" src="data:video/mp4;base64,{source}"></video>'
+
+
+class Filmed:
+    """What trajectories of one bead and of several have in common: a film in a notebook."""
+
+    def animate(self, *, progress: Progress = None, **options: Any) -> Animation:
+        """The film of movie() in a notebook, 480 pixels wide unless told: an HTML5 video.
+
+        Parameters
+        ----------
+        progress
+            True: a bar; or a function of (fraction, what).
+        **options
+            Those of movie().
+
+        Returns
+        -------
+        Animation
+            A notebook shows it; save(path) writes it.
+
+        Raises
+        ------
+        BadInput
+            Where an argument is wrong; the sentence says what was expected.
+        Unavailable
+            Where ffmpeg or cairo is missing.
+        Interrupted
+            After Ctrl-C.
+        """
+        given = {"width": 480, "height": 480, **options}
+        with tempfile.TemporaryDirectory(prefix="festoon-film-") as folder:
+            path = os.path.join(folder, "film.mp4")
+            movie(self, path, progress, **given)
+            with open(path, "rb") as file:
+                return Animation(file.read(), int(given["width"]))
 
 
 def _facts(struct: Any) -> Dict[str, Any]:

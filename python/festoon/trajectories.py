@@ -10,6 +10,7 @@ from ._native import Watch, ffi, lent, lib, path_bytes
 from ._progress import Progress
 from ._quantities import Scales
 from ._tables import COLUMNS, Columns
+from .films import Filmed
 from .bead import Bead
 
 Path = Union[str, "os.PathLike[str]"]
@@ -40,7 +41,7 @@ class TrajectoryIn(Columns):
         return self._scales.column(PLACES[name])[1]
 
 
-class Trajectory(Columns, np.ndarray):  # type: ignore[type-arg]
+class Trajectory(Filmed, Columns, np.ndarray):  # type: ignore[type-arg]
     """Samples as an array of numpy; columns are attributes and fields, scaled (l, 1/gamma, B0).
 
     >>> tr = Bead().run(periods=20, trajectory=True).trajectory

@@ -1,5 +1,7 @@
 """The program's figures and films through the library."""
 
+import base64
+import re
 import struct
 import subprocess
 
@@ -82,6 +84,21 @@ def test_movie_of_two_beads(program, tmp_path):
     ours, theirs = (sorted((tmp_path / name).glob("*.png")) for name in ("ours", "theirs"))
     assert len(ours) == len(theirs) > 5
     assert [frame.read_bytes() for frame in ours] == [frame.read_bytes() for frame in theirs]
+
+
+def test_animation_in_a_notebook(samples, tmp_path):
+    """The film that movie() makes, in the page itself."""
+    needs("cairo")
+    needs("ffmpeg")
+    options = {"width": 200, "height": 200, "fps": 10, "begin": 20, "end": 22}
+    shown = samples.animate(**options)
+    samples.movie(tmp_path / "film.mp4", **options)
+    shown.save(tmp_path / "same.mp4")
+    assert (tmp_path / "same.mp4").read_bytes() == (tmp_path / "film.mp4").read_bytes()[: len(shown.film)] and len(shown.film) > 1000
+    words = re.fullmatch(r'<video controls loop width="200" src="data:video/mp4;base64,([A-Za-z0-9+/=]+)"></video>', shown._repr_html_())
+    assert words and base64.b64decode(words[1]) == shown.film and shown.film[4:8] == b"ftyp"
+    with pytest.raises(fs.BadInput):
+        samples.animate(width=201)
 
 
 def test_film_and_track(samples, tmp_path):
