@@ -120,7 +120,7 @@ class Track:
 
     @property
     def scale_error(self) -> float:
-        """Relative error of the scale, by which all lengths are wrong alike; 0: none, or unknown."""
+        """Relative error of the scale [1], by which all lengths are wrong alike; 0: none, or unknown."""
         return float(self._track.scale_error)
 
     def __len__(self) -> int:

@@ -10,8 +10,8 @@ from ._native import Watch, ffi, lent, lib, path_bytes
 from ._progress import Progress
 from ._quantities import Scales
 from ._tables import COLUMNS, Columns
-from .films import Filmed
 from .bead import Bead
+from .films import Filmed
 
 Path = Union[str, "os.PathLike[str]"]
 
