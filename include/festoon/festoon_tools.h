@@ -491,6 +491,9 @@ typedef struct fst_camera_options {
     int quality;              /* of the compression: 0, lossless, to 51 */
     int drop;                 /* every drop-th frame is lost; 0: none */
     uint64_t seed;            /* of the noise */
+    const char *
+        marks; /* black paint on the bead: "half" (the northern half, and a dot on each half) or "dots" (a large
+                          one on the north pole, a smaller one on the equator); NULL: none */
     const fst_progress *progress; /* NULL: nobody is told */
 } fst_camera_options;
 /* 1280 x 720 pixels, 240 frames a second exposed for 1 ms, 5 degrees of tilt, a readout of 3 ms, noise of 2
@@ -508,7 +511,8 @@ typedef struct fst_camera_facts {
 
 /* Film a trajectory: gray pictures of plate and bead, in .mp4, .mov, .gif or a folder of images, and beside
  * them the truth as a table (NULL: none): frame, true time of its beginning, where the bead was on the mean
- * over the exposure, and the pixel that saw it (columns from the left, rows from the bottom).  The arguments
+ * over the exposure, and the pixel that saw it (columns from the left, rows from the bottom); of a bead with marks n,
+ * W and the velocity of its lowest point too.  The arguments
  * fail as those of fst_film(). */
 FST_API fst_status fst_camera_film(const fst_table *table, const char *out, const char *truth,
                                    const fst_camera_options *options, fst_camera_facts *facts,

@@ -31,6 +31,7 @@ fst_status read_camera(const arguments *given, fst_camera_options *camera, fst_e
 {
     *camera = fst_default_camera_options();
     const char *size = option_value(given, "size");
+    camera->marks = option_value(given, "marks");
     double quality = camera->quality, drop = camera->drop, seed = (double)camera->seed;
     const value_option values[] = {{"fps", FST_UNIT_NUMBER, &camera->fps, 0, 0},
                                    {"stored-fps", FST_UNIT_NUMBER, &camera->stored_fps, 0, 0},

@@ -61,6 +61,7 @@ typedef struct camera {
     fst_camera_paint paint;
     fst_film_cast cast;
     fst_camera_motion *motions; /* of each bead */
+    fst_film_marks *marks;      /* of each bead; NULL: they have none */
     fst_process process;
     char folder[4096]; /* the folder of images; "": the frames go to ffmpeg */
     unsigned char *pixels;
@@ -108,6 +109,9 @@ static fst_status check(const fst_camera_options *o, fst_error *error)
     if (!(o->exposure * o->fps <= 1.0))
         return fst_fail(error, FST_BAD_INPUT, "fst_camera_options.exposure",
                         "%g s is longer than a frame lasts, which is %g s", o->exposure, 1.0 / o->fps);
+    if (o->marks && !fst_film_marks_known(o->marks))
+        return fst_fail(error, FST_BAD_INPUT, "fst_camera_options.marks",
+                        "\"%.40s\" are no marks that a bead can have: half or dots", o->marks);
     if (!(o->drop == 0 || (o->drop >= 2 && o->drop <= MOST_FRAMES)))
         return fst_fail(error, FST_BAD_INPUT, "fst_camera_options.drop",
                         "%d: a whole number from 2, or 0 to lose no frame", o->drop);
@@ -133,6 +137,29 @@ static fst_camera_motion motion_of(const fst_film_motion *m)
                                .millimetre = m->millimetres};
 }
 
+/* Paint the marks on the beads, where they are wanted. */
+static fst_status begin_marks(camera *c, fst_error *error)
+{
+    fst_status status = FST_OK;
+    if (!c->options->marks)
+        return FST_OK;
+    c->marks = calloc((size_t)c->cast.count, sizeof *c->marks);
+    if (!c->marks)
+        return fst_fail(error, FST_NO_MEMORY, "film", "no memory for the marks of a bead");
+    for (int i = 0; i < c->cast.count && status == FST_OK; ++i) {
+        status = fst_film_marks_begin(&c->marks[i], &c->cast.motions[i], c->options->marks, error);
+        c->motions[i].marks = &c->marks[i];
+    }
+    return status;
+}
+
+static void end_marks(camera *c)
+{
+    for (int i = 0; c->marks && i < c->cast.count; ++i)
+        free(c->marks[i].turns);
+    free(c->marks);
+}
+
 /* The beads of a trajectory of one or, where `list` is given, of a list. */
 static fst_status begin_motions(camera *c, const fst_table *table, const fst_beads_table *list,
                                 fst_error *error)
@@ -151,6 +178,9 @@ static fst_status begin_motions(camera *c, const fst_table *table, const fst_bea
         return fst_fail(error, FST_NO_MEMORY, "film", "no memory for the beads of a film");
     for (int i = 0; i < c->cast.count; ++i)
         c->motions[i] = motion_of(&c->cast.motions[i]);
+    status = begin_marks(c, error);
+    if (status != FST_OK)
+        return status;
     const fst_camera_motion *m = &c->motions[0];
     c->begin = m->t[0] * m->second;
     const double seconds = m->t[m->rows - 1] * m->second - c->begin;
@@ -253,10 +283,13 @@ static fst_status give_frame(camera *c, int index, fst_error *error)
 /* The names of the columns, with the number of the bead behind those of several. */
 static void write_names(camera *c)
 {
-    static const char *const units[4][2] = {{"x", "mm"}, {"y", "mm"}, {"u", "px"}, {"v", "px"}};
+    static const char *const units[12][2] = {
+        {"x", "mm"},     {"y", "mm"},     {"u", "px"},        {"v", "px"}, /* then those of a bead with marks */
+        {"nx", "1"},     {"ny", "1"},     {"nz", "1"},        {"wx", "rad/s"},
+        {"wy", "rad/s"}, {"wz", "rad/s"}, {"slip_x", "mm/s"}, {"slip_y", "mm/s"}};
     (void)fprintf(c->truth.stream, "frame,t [s]");
     for (int i = 0; i < c->cast.count; ++i)
-        for (int k = 0; k < 4; ++k) {
+        for (int k = 0; k < (c->marks ? 12 : 4); ++k) {
             char number[16] = "";
             if (c->cast.count > 1)
                 (void)snprintf(number, sizeof number, "_%d", i);
@@ -271,10 +304,15 @@ static void write_truth(camera *c, int index, double seconds)
         return;
     (void)fprintf(c->truth.stream, "%d,%.9f", index, seconds - c->begin);
     for (int i = 0; i < c->cast.count; ++i) {
-        double place[3], seen[2];
+        double place[3], seen[2], n[3], w[3], slip[2];
         fst_camera_paint_truth(&c->paint, &c->motions[i], seconds, place, seen);
         (void)fprintf(c->truth.stream, ",%.6f,%.6f,%.4f,%.4f", place[0], place[1], seen[0],
                       c->paint.height - 1 - seen[1]);
+        if (!c->marks)
+            continue;
+        fst_camera_paint_turning(&c->paint, &c->motions[i], seconds, seen, n, w, slip);
+        (void)fprintf(c->truth.stream, ",%.6f,%.6f,%.6f,%.4f,%.4f,%.4f,%.4f,%.4f", n[0], n[1], n[2], w[0], w[1],
+                      w[2], slip[0], slip[1]);
     }
     (void)fputc('\n', c->truth.stream);
 }
@@ -409,6 +447,7 @@ static fst_status take(const fst_table *table, const fst_beads_table *list, cons
         tell_facts(&c, facts);
     fst_camera_paint_end(&c.paint);
     free(c.pixels);
+    end_marks(&c);
     free(c.motions);
     fst_film_cast_free(&c.cast);
     fst_c_locale_leave(locale);

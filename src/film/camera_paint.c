@@ -23,10 +23,9 @@ enum { MOST_MOMENTS = 64, SUBPIXELS = 3 };
 
 /* ------------------------------------------------------------------ the motion */
 
-void fst_camera_motion_at(fst_camera_motion *motion, double seconds, double place[3])
+/* Go to the row before a moment.  Returns which part of the way to the next row is behind. */
+static double go_to(fst_camera_motion *motion, double seconds)
 {
-    const double *const places[3] = {motion->x, motion->y, motion->z};
-    const double *const rates[3] = {motion->vx, motion->vy, motion->vz};
     const double t = seconds / motion->second;
     size_t row = motion->row;
     while (row > 0 && motion->t[row] > t)
@@ -34,9 +33,17 @@ void fst_camera_motion_at(fst_camera_motion *motion, double seconds, double plac
     while (row + 2 < motion->rows && motion->t[row + 1] <= t)
         ++row;
     motion->row = row;
+    return fmax(0.0, fmin(1.0, (t - motion->t[row]) / (motion->t[row + 1] - motion->t[row])));
+}
+
+void fst_camera_motion_at(fst_camera_motion *motion, double seconds, double place[3])
+{
+    const double *const places[3] = {motion->x, motion->y, motion->z};
+    const double *const rates[3] = {motion->vx, motion->vy, motion->vz};
     /* Hermite's cubic: it has the places and the velocities of both rows. */
+    const double s = go_to(motion, seconds), q = 1.0 - s;
+    const size_t row = motion->row;
     const double step = motion->t[row + 1] - motion->t[row];
-    const double s = fmax(0.0, fmin(1.0, (t - motion->t[row]) / step)), q = 1.0 - s;
     const double from = q * q * (1.0 + 2.0 * s), to = s * s * (3.0 - 2.0 * s);
     const double leave = q * q * s * step, arrive = -s * s * q * step;
     for (int i = 0; i < 3; ++i)
@@ -131,13 +138,30 @@ static double begin_of_row(const fst_camera_paint *paint, double seconds, double
     return seconds + paint->readout * row / paint->height;
 }
 
+/* Where the bead is at a moment, and, where it has marks, how it is turned. */
+typedef struct moment {
+    double place[3], turn[3][3];
+} moment;
+
+static moment moment_at(fst_camera_motion *motion, double seconds)
+{
+    moment at;
+    fst_camera_motion_at(motion, seconds, at.place);
+    if (motion->marks) {
+        const double part = go_to(motion, seconds);
+        fst_film_marks_turn(motion->marks, motion->row, part, at.turn);
+    }
+    return at;
+}
+
 /* How much of what a pixel sees along `ray` is bead, and how much light the bead sends back there: a dark ball
  * of steel, lit from the left above, with a highlight almost as bright as the plate. */
-static double bead_along(const fst_camera_paint *paint, double radius, const double centre[3],
+static double bead_along(const fst_camera_paint *paint, const fst_camera_motion *bead, const moment *at,
                          const double ray[3], double *shade)
 {
+    const double radius = bead->bead, *centre = at->place;
     static const double lamp[3] = {-0.4, 0.5, 0.768};
-    double way = 0.0, off[3], squared = 0.0, towards = 0.0, mirror = 0.0, between = 0.0;
+    double way = 0.0, off[3], normal[3], squared = 0.0, towards = 0.0, mirror = 0.0, between = 0.0;
     for (int i = 0; i < 3; ++i)
         way += (centre[i] - paint->view.place[i]) * ray[i];
     for (int i = 0; i < 3; ++i) {
@@ -148,12 +172,14 @@ static double bead_along(const fst_camera_paint *paint, double radius, const dou
     const double part = fmax(0.0, fmin(1.0, inside + 0.5));
     const double front = sqrt(fmax(0.0, radius * radius - squared));
     for (int i = 0; i < 3; ++i) {
-        const double normal = (off[i] - front * ray[i]) / radius;
-        towards += normal * lamp[i];
-        mirror += normal * (lamp[i] - ray[i]);
+        normal[i] = (off[i] - front * ray[i]) / radius;
+        towards += normal[i] * lamp[i];
+        mirror += normal[i] * (lamp[i] - ray[i]);
         between += (lamp[i] - ray[i]) * (lamp[i] - ray[i]);
     }
     *shade = mirror > 0.975 * sqrt(between) ? HIGHLIGHT : 0.10 + 0.25 * fmax(0.0, towards);
+    if (bead->marks && *shade < HIGHLIGHT) /* paint is as glossy as steel */
+        *shade *= fst_film_marks_shade(bead->marks, at->turn, normal);
     return part;
 }
 
@@ -199,16 +225,16 @@ static int moments(const fst_camera_paint *paint, fst_camera_motion *motion, dou
 static void paint_bead_row(const fst_camera_paint *paint, fst_camera_motion *motion, double seconds, int row,
                            const int columns[2], int count)
 {
-    double places[MOST_MOMENTS][3];
+    moment places[MOST_MOMENTS];
     const double begin = begin_of_row(paint, seconds, row);
     for (int k = 0; k < count; ++k)
-        fst_camera_motion_at(motion, begin + paint->exposure * (k + 0.5) / count, places[k]);
+        places[k] = moment_at(motion, begin + paint->exposure * (k + 0.5) / count);
     for (int column = columns[0]; column < columns[1]; ++column) {
         double ray[3], covered = 0.0, sent = 0.0;
         fst_camera_view_ray(&paint->view, column, row, ray);
         for (int k = 0; k < count; ++k) {
             double shade;
-            const double part = bead_along(paint, motion->bead, places[k], ray, &shade);
+            const double part = bead_along(paint, motion, &places[k], ray, &shade);
             covered += part;
             sent += part * shade;
         }
@@ -290,4 +316,24 @@ void fst_camera_paint_truth(const fst_camera_paint *paint, fst_camera_motion *mo
         fst_camera_view_project(&paint->view, mean, seen);
         memcpy(place, mean, sizeof mean);
     }
+}
+
+void fst_camera_paint_turning(const fst_camera_paint *paint, fst_camera_motion *motion, double seconds,
+                              const double seen[2], double n[3], double w[3], double slip[2])
+{
+    const double at = begin_of_row(paint, seconds, seen[1]) + 0.5 * paint->exposure;
+    const double part = go_to(motion, at), rate = 1.0 / motion->second;
+    const double *const *of = motion->marks->motion->w, *const velocities[2] = {motion->vx, motion->vy};
+    const size_t row = motion->row, first = motion->marks->motion->first;
+    double turn[3][3];
+    fst_film_marks_turn(motion->marks, row, part, turn);
+    for (int i = 0; i < 3; ++i) {
+        n[i] = turn[i][2];
+        w[i] = rate * (of[i][first + row] + part * (of[i][first + row + 1] - of[i][first + row]));
+    }
+    for (int i = 0; i < 2; ++i)
+        slip[i] = rate * motion->millimetre *
+                  (velocities[i][row] + part * (velocities[i][row + 1] - velocities[i][row]));
+    slip[0] -= motion->bead * w[1]; /* W x e = (W_y, -W_x, 0) */
+    slip[1] += motion->bead * w[0];
 }

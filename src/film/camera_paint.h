@@ -9,6 +9,7 @@
 #define FST_FILM_CAMERA_PAINT_H
 
 #include "film/camera_view.h"
+#include "film/marks.h"
 
 #include <festoon/festoon_tools.h>
 
@@ -16,9 +17,10 @@
 typedef struct fst_camera_motion {
     const double *t, *x, *y, *z, *vx, *vy, *vz; /* scaled, as the trajectory has them; NULL: no heights */
     size_t rows;
-    double bead;               /* radius, mm */
-    double second, millimetre; /* what the units of t and x are worth */
-    size_t row;                /* where the last look was */
+    double bead;                 /* radius, mm */
+    double second, millimetre;   /* what the units of t and x are worth */
+    size_t row;                  /* where the last look was */
+    const fst_film_marks *marks; /* NULL: none */
 } fst_camera_motion;
 
 /* The place of the centre at a moment, in mm. */
@@ -48,5 +50,10 @@ void fst_camera_paint_frame(const fst_camera_paint *paint, fst_camera_motion *mo
  * and row. */
 void fst_camera_paint_truth(const fst_camera_paint *paint, fst_camera_motion *motion, double seconds,
                             double place[3], double seen[2]);
+
+/* How the bead turns in the middle of the exposure of the row `seen[1]`: n, its angular velocity (rad/s), and the velocity
+ * of its lowest point (mm/s). */
+void fst_camera_paint_turning(const fst_camera_paint *paint, fst_camera_motion *motion, double seconds,
+                              const double seen[2], double n[3], double w[3], double slip[2]);
 
 #endif

@@ -98,8 +98,7 @@ static void rotate(double turn[3][3], const double angle[3])
     }
 }
 
-/* Turn the bead from a row by `part` of the way to the next. */
-static void roll(const fst_film_motion *motion, size_t row, double part, double turn[3][3])
+void fst_film_motion_roll(const fst_film_motion *motion, size_t row, double part, double turn[3][3])
 {
     double step = part * (motion->t[row + 1] - motion->t[row]), angle[3], n[3], length = 0.0;
     for (int i = 0; i < 3; ++i) {
@@ -172,7 +171,7 @@ fst_status fst_film_motion_begin(fst_film_motion *motion, const fst_table *table
 void fst_film_motion_to(fst_film_motion *motion, double periods)
 {
     while (motion->row + 1 < motion->last && motion->clock[motion->row + 1] <= periods) {
-        roll(motion, motion->row, 1.0, motion->turn);
+        fst_film_motion_roll(motion, motion->row, 1.0, motion->turn);
         ++motion->row;
     }
     double low = motion->clock[motion->row], high = motion->clock[motion->row + 1];
@@ -201,5 +200,5 @@ void fst_film_motion_bead(const fst_film_motion *motion, fst_film_bead *bead)
                     : motion->sticking[nearest] > 0.5 ? FST_CONTACT_STICKS
                                                       : FST_CONTACT_SLIPS;
     memcpy(bead->turn, motion->turn, sizeof bead->turn);
-    roll(motion, motion->row, motion->part, bead->turn);
+    fst_film_motion_roll(motion, motion->row, motion->part, bead->turn);
 }

@@ -38,6 +38,9 @@ fst_status fst_film_motion_begin(fst_film_motion *motion, const fst_table *table
 /* Go on to a moment, in drive periods; it must not be earlier than the one before. */
 void fst_film_motion_to(fst_film_motion *motion, double periods);
 
+/* Turn the bead from a row by `part` of the way to the next. */
+void fst_film_motion_roll(const fst_film_motion *motion, size_t row, double part, double turn[3][3]);
+
 /* What a column of numbers is at that moment. */
 double fst_film_motion_at(const fst_film_motion *motion, const double *column);
 
