@@ -492,7 +492,7 @@ typedef struct fst_camera_options {
     int drop;                 /* every drop-th frame is lost; 0: none */
     uint64_t seed;            /* of the noise */
     const char *
-        marks; /* black paint on the bead: "half" (the northern half, and a dot on each half) or "dots" (a large
+        marks; /* a light coat with black marks on the bead: "half" (the northern half, and two dots on each half) or "dots" (a large
                           one on the north pole, a smaller one on the equator); NULL: none */
     const fst_progress *progress; /* NULL: nobody is told */
 } fst_camera_options;

@@ -18,6 +18,8 @@ typedef struct fst_film_track_options {
                             them, which are compared, and of which the first is taken; NULL: pixels */
     double distance; /* m from the camera to the plate, by which the bead's height over the plate is
                             allowed for; NAN: it is not */
+    double turning;  /* m, the diameter of a bead with marks whose turning is wanted, with a scale and a
+                        distance; NAN: it is not */
     int beads;       /* how many are followed, 1 to FST_TRACKED_BEADS */
     const char *csv; /* the tracks as a file, festoon\'s own CSV; NULL: none */
     const char *overlay;          /* a film, .mp4 or .mov, that shows what was found; NULL: none */
@@ -75,8 +77,15 @@ typedef struct fst_film_track_report {
     int edge_count, edge_taken;             /* no plate is asked for: 0, -1 */
     int beads, doubt_count;                 /* how many beads; how often names may have been exchanged */
     fst_name_doubt doubts[FST_NAME_DOUBTS]; /* the first of these */
-    char format[64], codec[64];             /* the file's, for a person */
-    char remark[256];                       /* what else a person should know; "" */
+    int turned, slips;                      /* frames in which n is known, and in which W and the slip are */
+    double slip,
+        slipping; /* mean |V| over mean |v|; in which part of these frames |V| is more than twice its error;
+                              NAN: no slip is known */
+    double
+        turned_share; /* of what changes on the bead, that its turning explains: 0, it has no marks that can be
+                            followed; NAN: not asked */
+    char format[64], codec[64]; /* the file's, for a person */
+    char remark[256];           /* what else a person should know; "" */
 } fst_film_track_report;
 
 /* Track the beads of a film (whatever ffmpeg reads of mp4, mov, webm, gif, avi, ...) or of a folder of images,

@@ -21,17 +21,29 @@ typedef enum {
 
 enum { FST_LENGTH_UNIT_SIZE = 8, FST_TRACKED_BEADS = 4 };
 
+/* How a bead with marks turns in a frame, in the axes of the track, z being up from the plate.  NAN: not known.  An error is
+ * one standard deviation. */
+typedef struct fst_turning {
+    double n[3];       /* from the middle of the bead to that of its mark, of length 1 */
+    double n_error;    /* of its direction, each way, rad */
+    double w[3];       /* W, rad/s */
+    double w_error;    /* of a component */
+    double slip[2];    /* V = v - R W x e, the velocity of the lowest point, length_unit/s */
+    double slip_error; /* of a component */
+} fst_turning;
+
 /* A track: one row a frame, in the order of time.  Frames that a file leaves out have no row; their number
  * shows in `frame`, which rises by one from a frame of the film to the next.  The axes are those of the picture
  * as a person sees it: x to the right, y up; where the origin is depends on the file and means nothing.  Begin
  * with {0}; free with fst_track_free(). */
 typedef struct fst_track {
     size_t rows, capacity;
-    int64_t *frame;      /* number of the frame in the film; it begins with 0, 1 or anything else */
-    double *t;           /* s; rises strictly.  NAN in all rows: the file has no clock (frames alone) */
-    double *x, *y;       /* in length_unit, NAN where lost */
-    unsigned char *flag; /* fst_frame_flag */
-    int *doubts;         /* how often until here the bead may have exchanged its name with another one's */
+    int64_t *frame;       /* number of the frame in the film; it begins with 0, 1 or anything else */
+    double *t;            /* s; rises strictly.  NAN in all rows: the file has no clock (frames alone) */
+    double *x, *y;        /* in length_unit, NAN where lost */
+    unsigned char *flag;  /* fst_frame_flag */
+    int *doubts;          /* how often until here the bead may have exchanged its name with another one's */
+    fst_turning *turning; /* NULL: how the bead turns was not looked at */
     char length_unit[FST_LENGTH_UNIT_SIZE]; /* "px", or a unit of params.def: "mm" */
     double
         scale_error; /* relative standard deviation of the length of a pixel, which all lengths share; 0: unknown,
@@ -46,10 +58,14 @@ FST_API void fst_track_free(fst_track *track);
 FST_API fst_status fst_track_append(fst_track *track, int64_t frame, double t, double x, double y,
                                     fst_error *error);
 
+/* Make room for the turning in each row, not known.  FST_NO_MEMORY is the only failure. */
+FST_API fst_status fst_track_add_turning(fst_track *track, fst_error *error);
+
 /* Write a track as festoon's own CSV, whole or not at all: where the scale has an error, a comment
  * `# scale_error: 0.004`; columns `frame,t [s],x [mm],y [mm]` with the track's
  * unit of length, a row a frame, empty cells where the bead was lost.  Rejected places are written as they are.
- * Without a clock there is no column `t [s]`. */
+ * Without a clock there is no column `t [s]`.  A track with turning has columns for it, and empty cells where it is not
+ * known. */
 FST_API fst_status fst_track_write(const char *path, const fst_track *track, fst_error *error);
 
 /* Write the tracks of one to four beads of a film, which have the same frames.  Of several the columns `track`, which counts

@@ -20,7 +20,7 @@
         {"plate", '\0', "LENGTH", "camera: diameter of the plate (what the motion needs)"},                    \
         {"quality", '\0', "N", "camera: compression, from 0, lossless, to 51 (23)"},                           \
         {"marks", '\0', "MARKS",                                                                               \
-         "camera: black paint on the bead, half or dots; the truth then tells how it turns (none)"},           \
+         "camera: black paint on a coated bead, half or dots; the truth then tells how it turns (none)"},      \
         {"drop", '\0', "N", "camera: it loses every Nth frame, so that the times jump"},                       \
         {"stored-fps", '\0', "F", "camera: frames a second that the film claims (the truth)"},                 \
     {                                                                                                          \

@@ -20,6 +20,8 @@ static const option options[] = {
      "A, compared with B"},
     {"fps", '\0', "F", "frames a second, instead of the film's clock; a folder of images needs it"},
     {"distance", '\0', "LENGTH", "from the camera to the plate: allows for the bead's height above it"},
+    {"turning", '\0', "DIAMETER",
+     "how a bead with marks turns: adds columns for n, W and the slip; its diameter, as 5mm, by callipers"},
     {"overlay", '\0', "FILM.mp4",
      "a film (mp4, mov) that shows what was found, slowed down to 30 frames a second"},
     {"picture", '\0', "FIG.png", "one picture to check by eye: the path, the plate's edge, and beads enlarged"},
@@ -36,7 +38,8 @@ static fst_status read_options(const arguments *given, fst_film_track_options *t
     double beads = 1.0;
     const value_option rows[] = {{"beads", VALUE_WHOLE, &beads, 1, FST_TRACKED_BEADS},
                                  {"fps", FST_UNIT_NUMBER, &track->fps, 0, 0},
-                                 {"distance", FST_UNIT_LENGTH, &track->distance, 0, 0}};
+                                 {"distance", FST_UNIT_LENGTH, &track->distance, 0, 0},
+                                 {"turning", FST_UNIT_LENGTH, &track->turning, 0, 0}};
     const fst_status status = read_values(given, rows, sizeof rows / sizeof *rows, error);
     track->beads = (int)beads;
     return status;
@@ -110,6 +113,17 @@ static void print_report(const fst_film_track_report *r, FILE *out)
                       shown(r->scales[i].text, text));
     if (r->edge_count > 0)
         print_edges(r, out);
+    if (r->turned_share > 0.0) {
+        (void)fprintf(
+            out,
+            "turning     n in %d frames, W and slip in %d; the marks explain %.0f %% of what changes on the "
+            "bead\n",
+            r->turned, r->slips, 100.0 * r->turned_share);
+        (void)fprintf(
+            out, "slip        %.1f %% of the velocity; in %.0f %% of the frames more than twice its error\n",
+            100.0 * r->slip, 100.0 * r->slipping);
+    } else if (!isnan(r->turned_share))
+        (void)fprintf(out, "turning     not found: no marks that turn with the bead were seen\n");
 }
 
 /* Two scales of the same film that do not agree within their errors. */

@@ -7,7 +7,8 @@
 
 #include "base/error.h"
 
-#define BLACK 0.35 /* of what bare steel sends back */
+#define COAT 1.8 /* of what bare steel sends back */
+#define BLACK 0.3
 #define FADES 0.06 /* rad over which the edge of a mark fades: a pixel of a bead that is 30 pixels wide */
 
 /* A dot: where its middle is on the bead, and its radius, rad. */
@@ -15,9 +16,11 @@ typedef struct dot {
     double middle[3], radius;
 } dot;
 
-/* The dots of a half are opposite to each other, so that one of them is always in view, and far from its edge. */
-static const dot spots[2] = {{{0.8191520443, 0.0, 0.5735764364}, 0.32},
-                             {{-0.6634139482, 0.5566703993, -0.5}, 0.32}};
+/* The dots of each half, the northern one first: at latitudes of 50 degrees, so that its edge stays what it is. */
+static const dot spots[4] = {{{0.6427876097, 0.0000000000, 0.7660444431}, 0.454},
+                             {{-0.5566703992, 0.3213938048, 0.7660444431}, 0.314},
+                             {{0.1663656753, 0.6208851530, -0.7660444431}, 0.454},
+                             {{-0.4545194777, -0.4545194777, -0.7660444431}, 0.314}};
 static const dot poles[2] = {{{0.0, 0.0, 1.0}, 0.56}, {{1.0, 0.0, 0.0}, 0.35}};
 
 int fst_film_marks_known(const char *name)
@@ -59,9 +62,10 @@ double fst_film_marks_shade(const fst_film_marks *marks, const double turn[3][3]
     double point[3];
     for (int k = 0; k < 3; ++k)
         point[k] = turn[0][k] * normal[0] + turn[1][k] * normal[1] + turn[2][k] * normal[2];
-    const dot *dots = marks->half ? spots : poles;
+    if (!marks->half)
+        return COAT - (COAT - BLACK) * fmin(1.0, inside(&poles[0], point) + inside(&poles[1], point));
     const double north = fmax(0.0, fmin(1.0, asin(fmax(-1.0, fmin(1.0, point[2]))) / FADES + 0.5));
-    const double one = inside(&dots[0], point), other = inside(&dots[1], point);
-    const double painted = marks->half ? fmin(north, 1.0 - one) + other : one + other;
-    return 1.0 - (1.0 - BLACK) * fmin(1.0, painted);
+    const double left_out = inside(&spots[0], point) + inside(&spots[1], point),
+                 added = inside(&spots[2], point) + inside(&spots[3], point);
+    return COAT - (COAT - BLACK) * (fmin(north, 1.0 - left_out) + added);
 }

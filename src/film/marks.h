@@ -1,9 +1,9 @@
 /* marks.h - marks on a filmed bead, by which its turning can be seen.
  *
- * Marks are black paint on the bead's steel.  The pattern is fixed to the bead, whose third axis is its magnetic
+ * Marks are black paint on a coat that is lighter than steel.  The pattern is fixed to the bead, whose third axis is its magnetic
  * moment n:
  *
- *   half   the northern half is black, but for a bare dot; on the southern half there is a black dot
+ *   half   the northern half is black, but for two dots that are left out; two black dots are on the southern half
  *   dots   a large black dot on the north pole, and a smaller one on the equator
  */
 #ifndef FST_FILM_MARKS_H

@@ -9,6 +9,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "base/turn.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -82,22 +83,6 @@ static void straighten(double turn[3][3], const double n[3])
     }
 }
 
-/* Turn the columns by the rotation vector `angle` (Rodrigues' formula). */
-static void rotate(double turn[3][3], const double angle[3])
-{
-    double size = sqrt(angle[0] * angle[0] + angle[1] * angle[1] + angle[2] * angle[2]);
-    if (!(size > 0.0))
-        return;
-    double a[3] = {angle[0] / size, angle[1] / size, angle[2] / size}, c = cos(size), s = sin(size);
-    for (int k = 0; k < 3; ++k) {
-        double v[3] = {turn[0][k], turn[1][k], turn[2][k]}, along = a[0] * v[0] + a[1] * v[1] + a[2] * v[2];
-        for (int i = 0; i < 3; ++i) {
-            int j = (i + 1) % 3, m = (i + 2) % 3;
-            turn[i][k] = c * v[i] + s * (a[j] * v[m] - a[m] * v[j]) + (1.0 - c) * along * a[i];
-        }
-    }
-}
-
 void fst_film_motion_roll(const fst_film_motion *motion, size_t row, double part, double turn[3][3])
 {
     double step = part * (motion->t[row + 1] - motion->t[row]), angle[3], n[3], length = 0.0;
@@ -108,7 +93,7 @@ void fst_film_motion_roll(const fst_film_motion *motion, size_t row, double part
     }
     for (int i = 0; i < 3; ++i)
         n[i] /= sqrt(length);
-    rotate(turn, angle);
+    fst_turn_by(turn, angle);
     straighten(turn, n);
 }
 

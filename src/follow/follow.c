@@ -24,6 +24,7 @@
 #include "follow/learn.h"
 #include "follow/overlay.h"
 #include "follow/scale.h"
+#include "follow/turning.h"
 
 #include <festoon/festoon_tools.h>
 
@@ -33,7 +34,8 @@ enum { OPTIONS_COOKIE = 0x54524b46 };
 
 fst_film_track_options fst_default_film_track_options(void)
 {
-    return (fst_film_track_options){.cookie = OPTIONS_COOKIE, .fps = NAN, .distance = NAN, .beads = 1};
+    return (fst_film_track_options){
+        .cookie = OPTIONS_COOKIE, .fps = NAN, .distance = NAN, .turning = NAN, .beads = 1};
 }
 
 /* A film being tracked. */
@@ -50,6 +52,7 @@ typedef struct tracking {
     int scale_count; /* 0: pixels */
     follow_plane plane;
     follow_rim rim;
+    follow_turning turning;
     follow_sizes sizes;
     follow_shake shake; /* of a camera that shook; count 0: it stood still */
     double moved[2];    /* the latest frame of it, pixels */
@@ -101,6 +104,9 @@ static fst_status follow_frames(tracking *t, follow_decoder *decoder, follow_bea
         if (status == FST_OK)
             status =
                 follow_overlay_frame(&t->overlay, &t->still, decoder->pixels, index, &t->look, places, error);
+        if (status == FST_OK && t->turning.grid)
+            status = follow_turning_take(&t->turning, &t->still, decoder->pixels, follower->gains, &places[0],
+                                         index, t->source.times[index], error);
         if (status != FST_OK)
             return status;
         count_places(t, index, places, doubt);
@@ -327,6 +333,55 @@ static fst_status finish_overlay(tracking *t, fst_error *error)
                                  t->rim.taken < 0 ? NULL : &t->rim.ellipses[t->rim.taken], error);
 }
 
+/* In how many frames n and the slip are known, and how large the slip is. */
+static void count_turning(const fst_track *track, double radius, fst_film_track_report *report)
+{
+    double slip = 0.0, speed = 0.0, beyond = 0.0;
+    for (size_t i = 0; i < track->rows; ++i) {
+        const fst_turning *t = &track->turning[i];
+        const double size = hypot(t->slip[0], t->slip[1]);
+        report->turned += isfinite(t->n[0]);
+        if (!isfinite(size))
+            continue;
+        ++report->slips;
+        slip += size;
+        speed += hypot(t->slip[0] + radius * t->w[1], t->slip[1] - radius * t->w[0]); /* v = V + R W x e */
+        beyond += size > 2.0 * t->slip_error;
+    }
+    if (report->slips > 0) {
+        report->slip = slip / speed;
+        report->slipping = beyond / report->slips;
+    }
+}
+
+/* How the bead turns, by its marks. */
+static fst_status find_turning(tracking *t, const fst_progress *progress, fst_track *track, fst_error *error)
+{
+    fst_film_track_report *r = t->report;
+    const double radius = 500.0 * t->options->turning;
+    fst_status status = follow_turning_place(&t->turning, &t->still, &t->plane, radius,
+                                             1e3 * t->options->distance - radius, error);
+    if (status == FST_OK)
+        status = follow_turning_find(&t->turning, progress, &r->turned_share, error);
+    if (status == FST_OK) /* the turning has told the centres better */
+        status = follow_turning_place(&t->turning, &t->still, &t->plane, radius,
+                                      1e3 * t->options->distance - radius, error);
+    if (status == FST_OK)
+        status = fst_track_add_turning(track, error);
+    if (status == FST_OK && r->turned_share > 0.0)
+        status = follow_spin(&t->turning, track, error);
+    if (status == FST_OK)
+        count_turning(track, radius, r);
+    if (status == FST_OK &&
+        2 * r->slips < t->turning.count) { /* rotations that do not follow from each other */
+        r->turned = r->slips = 0;
+        r->turned_share = 0.0;
+        r->slip = r->slipping = NAN;
+        return fst_track_add_turning(track, error);
+    }
+    return status;
+}
+
 /* Where no scale was found, the picture and the overlay show why: they are written all the same. */
 static void show_what_was_found(tracking *t)
 {
@@ -337,9 +392,12 @@ static void show_what_was_found(tracking *t)
 static fst_status perform(tracking *t, fst_track *track, fst_error *error)
 {
     const fst_film_track_options *o = t->options;
-    fst_part part = {o->progress, 0.4, 1.0, "frames"};
-    const fst_progress told = {&part, fst_part_tell};
+    const int turns = !isnan(o->turning);
+    fst_part parts[2] = {{o->progress, 0.4, turns ? 0.6 : 1.0, "frames"}, {o->progress, 0.6, 1.0, "turning"}};
+    const fst_progress told = {&parts[0], fst_part_tell}, turning_told = {&parts[1], fst_part_tell};
     fst_status status = begin(t, error);
+    if (status == FST_OK && turns)
+        status = follow_turning_begin(&t->turning, t->look.diameter, error);
     if (status != FST_OK)
         return status;
     const double fps = (t->source.frames - 1) / (t->source.times[t->source.frames - 1] - t->source.times[0]);
@@ -363,6 +421,8 @@ static fst_status perform(tracking *t, fst_track *track, fst_error *error)
     for (int bead = 0; bead < t->beads && status == FST_OK; ++bead)
         status = make_track(t, bead, &track[bead], error);
     if (status == FST_OK)
+        status = turns ? find_turning(t, &turning_told, track, error) : FST_OK;
+    if (status == FST_OK)
         status = finish_overlay(t, error);
     if (status == FST_OK && o->csv)
         status = fst_tracks_write(o->csv, track, t->beads, error);
@@ -377,6 +437,26 @@ static fst_status check_place(const char *path, fst_error *error)
     if (status == FST_OK)
         fst_whole_file_discard(&file);
     return status;
+}
+
+/* How much of a turning the slip takes needs lengths, and from where the camera sees the bead. */
+static fst_status check_turning(const fst_film_track_options *o, fst_error *error)
+{
+    static const char where[] = "fst_film_track_options.turning";
+    if (isnan(o->turning))
+        return FST_OK;
+    if (!(o->turning > 0.0 && o->turning < 1.0))
+        return fst_fail(error, FST_BAD_INPUT, where,
+                        "a bead of %g m: its diameter, more than 0 and less than 1 m", o->turning);
+    if (!o->scale || isnan(o->distance))
+        return fst_fail(
+            error, FST_BAD_INPUT, where,
+            "the turning of a bead needs a scale and the distance of the camera: from where a mark is seen "
+            "follows from them");
+    if (o->beads > 1)
+        return fst_fail(error, FST_BAD_INPUT, where, "the turning is that of one bead, and %d are followed",
+                        o->beads);
+    return FST_OK;
 }
 
 fst_status fst_film_track(const char *film, const fst_film_track_options *options, fst_track *track,
@@ -396,6 +476,9 @@ fst_status fst_film_track(const char *film, const fst_film_track_options *option
                                         .jitter = NAN,
                                         .scale = NAN,
                                         .scale_error = NAN,
+                                        .slip = NAN,
+                                        .slipping = NAN,
+                                        .turned_share = NAN,
                                         .plate = {NAN, NAN},
                                         .rim_error = NAN,
                                         .edge_taken = -1};
@@ -411,6 +494,9 @@ fst_status fst_film_track(const char *film, const fst_film_track_options *option
     if (!isnan(t.options->distance) && !(t.options->distance > 0.0 && t.options->distance <= 1e3))
         return fst_fail(error, FST_BAD_INPUT, "fst_film_track_options.distance",
                         "%g m from the camera to the plate: more than 0, at most 1 km", t.options->distance);
+    const fst_status wanted = check_turning(t.options, error);
+    if (wanted != FST_OK)
+        return wanted;
     const fst_c_locale locale = fst_c_locale_enter();
     fst_status status = t.options->scale ? follow_scales_read(t.options->scale, t.scales, t.report->scales,
                                                               &t.scale_count, error)
@@ -419,6 +505,7 @@ fst_status fst_film_track(const char *film, const fst_film_track_options *option
         status = check_place(t.options->csv, error);
     if (status == FST_OK)
         status = perform(&t, track, error);
+    follow_turning_end(&t.turning);
     for (int bead = 0; bead < t.beads; ++bead) {
         if (status != FST_OK)
             fst_track_free(&track[bead]);

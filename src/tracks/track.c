@@ -17,7 +17,25 @@ void fst_track_free(fst_track *track)
     free(track->y);
     free(track->flag);
     free(track->doubts);
+    free(track->turning);
     *track = (fst_track){0};
+}
+
+/* Forget the turning in the rows from one on. */
+static void forget_turning(fst_track *track, size_t from)
+{
+    for (size_t i = from; i < track->capacity; ++i)
+        track->turning[i] = (fst_turning){{NAN, NAN, NAN}, NAN, {NAN, NAN, NAN}, NAN, {NAN, NAN}, NAN};
+}
+
+fst_status fst_track_add_turning(fst_track *track, fst_error *error)
+{
+    if (!track->turning)
+        track->turning = malloc((track->capacity + 1) * sizeof *track->turning);
+    if (!track->turning)
+        return fst_fail(error, FST_NO_MEMORY, "", "no memory for the turning in %zu frames", track->rows);
+    forget_turning(track, 0);
+    return FST_OK;
 }
 
 fst_status fst_track_append(fst_track *track, int64_t frame, double t, double x, double y, fst_error *error)
@@ -28,9 +46,12 @@ fst_status fst_track_append(fst_track *track, int64_t frame, double t, double x,
             !fst_resize(&track->t, capacity, sizeof *track->t) ||
             !fst_resize(&track->x, capacity, sizeof *track->x) ||
             !fst_resize(&track->y, capacity, sizeof *track->y) || !fst_resize(&track->flag, capacity, 1) ||
-            !fst_resize(&track->doubts, capacity, sizeof *track->doubts))
+            !fst_resize(&track->doubts, capacity, sizeof *track->doubts) ||
+            (track->turning && !fst_resize(&track->turning, capacity, sizeof *track->turning)))
             return fst_fail(error, FST_NO_MEMORY, "", "no memory for a track of %zu frames", capacity);
         track->capacity = capacity;
+        if (track->turning)
+            forget_turning(track, track->rows);
     }
     const int seen = isfinite(x) && isfinite(y);
     const size_t i = track->rows++;
@@ -54,6 +75,15 @@ static void put(FILE *out, double value, char end)
     (void)fputc(end, out);
 }
 
+static void put_turning(FILE *out, const fst_turning *t)
+{
+    const double values[] = {t->n[0], t->n[1],    t->n[2],    t->n_error, t->w[0],      t->w[1],
+                             t->w[2], t->w_error, t->slip[0], t->slip[1], t->slip_error};
+    const int count = (int)(sizeof values / sizeof *values);
+    for (int i = 0; i < count; ++i)
+        put(out, values[i], i + 1 < count ? ',' : '\n');
+}
+
 fst_status fst_track_write(const char *path, const fst_track *track, fst_error *error)
 {
     return fst_tracks_write(path, track, 1, error);
@@ -72,17 +102,25 @@ fst_status fst_tracks_write(const char *path, const fst_track *track, int count,
         (void)fputs(TRACK_SCALE_ERROR, file.stream);
         put(file.stream, track->scale_error, '\n');
     }
-    (void)fprintf(file.stream, "frame,%sx [%s],y [%s]%s\n", timed ? "t [s]," : "", unit, unit,
+    (void)fprintf(file.stream, "frame,%sx [%s],y [%s]%s", timed ? "t [s]," : "", unit, unit,
                   count > 1 ? ",track,doubts" : "");
+    if (count == 1 && track->turning)
+        (void)fprintf(file.stream,
+                      ",nx,ny,nz,n_error [rad],wx [rad/s],wy [rad/s],wz [rad/s],w_error [rad/s],slip_x [%s/s],"
+                      "slip_y [%s/s],slip_error [%s/s]",
+                      unit, unit, unit);
+    (void)fputc('\n', file.stream);
     for (size_t i = 0; i < track->rows; ++i)
         for (const fst_track *one = track; one < track + count; ++one) {
             (void)fprintf(file.stream, "%lld,", (long long)one->frame[i]);
             if (timed)
                 put(file.stream, one->t[i], ',');
             put(file.stream, one->x[i], ',');
-            put(file.stream, one->y[i], count > 1 ? ',' : '\n');
+            put(file.stream, one->y[i], count > 1 || one->turning ? ',' : '\n');
             if (count > 1)
                 (void)fprintf(file.stream, "%d,%d\n", (int)(one - track) + 1, one->doubts[i]);
+            else if (one->turning)
+                put_turning(file.stream, &one->turning[i]);
         }
     fst_c_locale_leave(locale);
     return fst_whole_file_commit(&file, error);

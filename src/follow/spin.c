@@ -1,0 +1,327 @@
+/* spin.c - n, W and slip in each frame, from the rotations around it.
+ *
+ * Over seven frames W and the velocity are polynomials of fourth order in time, fitted to the frame and its neighbours.  A
+ * rotation counts by what its frame knows of it: a frame that shows but one dot knows nothing of the turning about it.
+ * By how much all rotations are off such smooth paths, beyond what was expected, tells by how much their errors have
+ * to be widened.
+ */
+#include "follow/turning.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/dot.h"
+#include "base/error.h"
+#include "base/order.h"
+#include "base/turn.h"
+
+enum {
+    SIDE = 3,
+    WIDER = 4,
+    MOST = 2 * WIDER + 1,
+    ORDERS = 5,
+    UNKNOWN = 3 + 3 * ORDERS,
+    SUBSTEPS = 4,
+    REPEATS = 4,
+    PLACES = ORDERS + 1
+};
+
+#define MOST_ERROR                                                                                             \
+    0.15               /* rad: a rotation that is less sure has no number, nor what a frame's time does to it */
+#define MOST_CHI2 16.3 /* of three degrees of freedom, one in a thousand: a rotation there is wrong */
+#define MEDIAN_CHI                                                                                             \
+    1.08 /* mean over median of chi^2 per degree of freedom, for the nine that seven frames leave */
+
+/* A frame of a window, and what of its rotation the fit expects. */
+typedef struct near_frame {
+    const follow_turn *turn;
+    double time; /* since the frame in the middle, in usual steps */
+    double expected[3][3];
+    double change[3][UNKNOWN]; /* of its rotation vector with the unknowns */
+} near_frame;
+
+/* A window around a frame. */
+typedef struct window {
+    near_frame frames[MOST];
+    int count;
+    double turn[3][3];       /* in the middle */
+    double rates[ORDERS][3]; /* W and its first two derivatives, in rad and usual steps */
+    double covariance[UNKNOWN * UNKNOWN];
+    double chi2;
+} window;
+
+/* ------------------------------------------------------------------ the path of a rotation */
+
+/* W at a time. */
+static void rate_at(const window *w, double time, double rate[3])
+{
+    double factor = 1.0;
+    rate[0] = rate[1] = rate[2] = 0.0;
+    for (int order = 0; order < ORDERS; ++order) {
+        for (int i = 0; i < 3; ++i)
+            rate[i] += factor * w->rates[order][i];
+        factor *= time / (order + 1);
+    }
+}
+
+/* Go from the middle to the frames on one side of it.  A change of W at a time s turns all that follows by as much, seen
+ * from the laboratory: R(t) R(s)^T, R being the turning since the middle. */
+static void go(window *w, int middle, int way)
+{
+    double turn[3][3], since[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}},
+                       sums[ORDERS][3][3] = {{{0.0}}};
+    double time = 0.0;
+    memcpy(turn, w->turn, sizeof turn);
+    for (int at = middle; at >= 0 && at < w->count; at += way) {
+        near_frame *f = &w->frames[at];
+        const double step = (f->time - time) / SUBSTEPS;
+        for (int k = 0; k < SUBSTEPS && at != middle; ++k) {
+            double by[3], half[3];
+            rate_at(w, time + 0.5 * step, by);
+            for (int i = 0; i < 3; ++i) {
+                by[i] *= step;
+                half[i] = 0.5 * by[i];
+            }
+            fst_turn_by(turn, by);
+            fst_turn_by(since, half);
+            double factor = step;
+            for (int order = 0; order < ORDERS; ++order) {
+                for (int i = 0; i < 3; ++i)
+                    for (int j = 0; j < 3; ++j)
+                        sums[order][i][j] += factor * since[j][i];
+                factor *= (time + 0.5 * step) / (order + 1);
+            }
+            fst_turn_by(since, half);
+            time += step;
+        }
+        memcpy(f->expected, turn, sizeof turn);
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) {
+                f->change[i][j] = since[i][j];
+                for (int order = 0; order < ORDERS; ++order)
+                    f->change[i][3 + 3 * order + j] = since[i][0] * sums[order][0][j] +
+                                                      since[i][1] * sums[order][1][j] +
+                                                      since[i][2] * sums[order][2][j];
+            }
+    }
+}
+
+/* The normal equations of the window; returns chi^2. */
+static double add_up(const window *w, double normal[UNKNOWN * UNKNOWN], double right[UNKNOWN])
+{
+    double chi2 = 0.0;
+    memset(normal, 0, UNKNOWN * UNKNOWN * sizeof *normal);
+    memset(right, 0, UNKNOWN * sizeof *right);
+    for (int at = 0; at < w->count; ++at) {
+        const near_frame *f = &w->frames[at];
+        double off[3];
+        fst_turn_between((const double(*)[3])f->expected, (const double(*)[3])f->turn->pose.turn, off);
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) {
+                const double known = f->turn->known[i][j];
+                chi2 += off[i] * known * off[j];
+                for (int p = 0; p < UNKNOWN; ++p) {
+                    right[p] += f->change[i][p] * known * off[j];
+                    for (int q = 0; q < UNKNOWN; ++q)
+                        normal[UNKNOWN * p + q] += f->change[i][p] * known * f->change[j][q];
+                }
+            }
+    }
+    for (int p = 0; p < UNKNOWN; ++p) /* what nothing is known of stays where it is, with a large error */
+        normal[(UNKNOWN + 1) * p] += 1e-3;
+    return chi2;
+}
+
+/* The inverse of the normal matrix, column by column. */
+static int invert(const double normal[UNKNOWN * UNKNOWN], double inverse[UNKNOWN * UNKNOWN])
+{
+    for (int p = 0; p < UNKNOWN; ++p) {
+        double copy[UNKNOWN * UNKNOWN], column[UNKNOWN] = {0.0};
+        memcpy(copy, normal, sizeof copy);
+        column[p] = 1.0;
+        if (!follow_solve(copy, column, UNKNOWN))
+            return 0;
+        memcpy(inverse + UNKNOWN * p, column, sizeof column);
+    }
+    return 1;
+}
+
+/* Fit a window whose middle is its frame number `middle`.  Returns 0 where it has no solution. */
+static int fit(window *w, int middle)
+{
+    double normal[UNKNOWN * UNKNOWN], right[UNKNOWN];
+    const near_frame *one = &w->frames[middle > 0 ? middle - 1 : middle],
+                     *other = &w->frames[middle > 0 ? middle : middle + 1];
+    memset(w->rates, 0, sizeof w->rates);
+    memcpy(w->turn, w->frames[middle].turn->pose.turn, sizeof w->turn);
+    fst_turn_between((const double(*)[3])one->turn->pose.turn, (const double(*)[3])other->turn->pose.turn,
+                     w->rates[0]);
+    for (int i = 0; i < 3; ++i)
+        w->rates[0][i] /= other->time - one->time;
+    for (int repeat = 0; repeat < REPEATS; ++repeat) {
+        go(w, middle, -1);
+        go(w, middle, 1);
+        w->chi2 = add_up(w, normal, right);
+        if (repeat + 1 == REPEATS)
+            return invert(normal, w->covariance);
+        if (!follow_solve(normal, right, UNKNOWN))
+            return 0;
+        fst_turn_by(w->turn, right);
+        for (int order = 0; order < ORDERS; ++order)
+            for (int i = 0; i < 3; ++i)
+                w->rates[order][i] += right[3 + 3 * order + i];
+    }
+    return 0;
+}
+
+/* ------------------------------------------------------------------ the velocity */
+
+/* The velocity in the middle of a window (mm per usual step), and by which factor the error of a place is in it; `off`
+ * gets the squares that are left, and their number. */
+static int velocity(const window *w, double v[2], double *factor, double off[2])
+{
+    double normal[PLACES * PLACES] = {0.0}, columns[3][PLACES] = {{0.0}};
+    columns[2][1] = 1.0;
+    for (int at = 0; at < w->count; ++at) {
+        const double t = w->frames[at].time;
+        double terms[PLACES] = {1.0};
+        for (int i = 1; i < PLACES; ++i)
+            terms[i] = terms[i - 1] * t;
+        for (int i = 0; i < PLACES; ++i) {
+            for (int k = 0; k < 2; ++k)
+                columns[k][i] += terms[i] * w->frames[at].turn->place[k];
+            for (int j = 0; j < PLACES; ++j)
+                normal[PLACES * i + j] += terms[i] * terms[j];
+        }
+    }
+    for (int k = 0; k < 3; ++k) {
+        double copy[PLACES * PLACES];
+        memcpy(copy, normal, sizeof copy);
+        if (!follow_solve(copy, columns[k], PLACES))
+            return 0;
+    }
+    for (int at = 0; at < w->count; ++at)
+        for (int k = 0; k < 2; ++k) {
+            const double t = w->frames[at].time, *c = columns[k];
+            double left = w->frames[at].turn->place[k], power = 1.0;
+            for (int i = 0; i < PLACES; ++i, power *= t)
+                left -= c[i] * power;
+            off[0] += left * left;
+        }
+    off[1] += 2.0 * (w->count - PLACES);
+    v[0] = columns[0][1];
+    v[1] = columns[1][1];
+    *factor = sqrt(columns[2][1]);
+    return 1;
+}
+
+/* ------------------------------------------------------------------ all frames */
+
+/* Collect the good frames around one.  Returns its number in the window, or -1 where there are too few of them. */
+static int collect(const follow_turning *t, int i, int side, double usual, window *w)
+{
+    int middle = -1;
+    w->count = 0;
+    for (int k = i > side ? i - side : 0; k <= i + side && k < t->count; ++k) {
+        const follow_turn *f = &t->turns[k];
+        const double time = (f->time - t->turns[i].time) / usual;
+        if (!f->good || fabs(time) > side + 0.5)
+            continue;
+        middle = k == i ? w->count : middle;
+        w->frames[w->count++] = (near_frame){.turn = f, .time = time};
+    }
+    return w->count >= 2 * side && middle > 0 && middle + 1 < w->count ? middle : -1;
+}
+
+static double usual_step(const follow_turning *t, double *room)
+{
+    for (int i = 0; i + 1 < t->count; ++i)
+        room[i] = t->turns[i + 1].time - t->turns[i].time;
+    return fst_median(room, (size_t)(t->count - 1));
+}
+
+/* By how much rotations are off smooth ones, over what was expected, and the error of a place, mm.  Windows are wider than
+ * those that W comes from: neighbours are off together, and W may bend more than a polynomial does. */
+static void scatter(const follow_turning *t, double usual, double *room, double *widen, double *place)
+{
+    double off[2] = {0.0, 0.0}, unused[2] = {0.0, 0.0};
+    int count = 0;
+    for (int i = 0; i < t->count; ++i) {
+        window w;
+        double v[2], factor;
+        if (collect(t, i, SIDE, usual, &w) >= 0)
+            (void)velocity(&w, v, &factor, w.count > 2 * SIDE ? off : unused);
+        const int middle = collect(t, i, WIDER, usual, &w);
+        if (middle >= 0 && w.count == MOST && fit(&w, middle))
+            room[count++] = w.chi2 / (3 * MOST - UNKNOWN);
+    }
+    *widen = fmax(1.0, sqrt(MEDIAN_CHI * fst_median(room, (size_t)count)));
+    *place = sqrt(off[0] / fmax(1.0, off[1]));
+}
+
+/* The error of a direction n by what a frame alone knows: those of its neighbours hang together with its own, so that
+ * their mean is no better. */
+static double across(const follow_turn *f, const double n[3])
+{
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        double a[9], column[3] = {k == 0, k == 1, k == 2};
+        for (int i = 0; i < 9; ++i)
+            a[i] = f->known[i / 3][i % 3] + (i % 4 == 0 ? 1e-3 : 0.0);
+        if (!follow_solve(a, column, 3))
+            return INFINITY;
+        for (int i = 0; i < 3; ++i) /* n turns by what is across it */
+            sum += 0.5 * column[i] * ((i == k) - n[i] * n[k]);
+    }
+    return sqrt(fmax(0.0, sum));
+}
+
+/* What is told of a frame. */
+static void tell(const follow_turning *t, const follow_turn *f, const window *w, double usual, double widen,
+                 double place, const double axis[3], fst_turning *told)
+{
+    double v[2], factor, off[2] = {0.0, 0.0}, rate = 0.0, flat = 0.0;
+    const double *c = w->covariance;
+    for (int i = 0; i < 3; ++i) {
+        told->n[i] = fst_dot(w->turn[i], axis, 3);
+        rate += c[(UNKNOWN + 1) * (3 + i)] / 3.0;
+        flat += i < 2 ? 0.5 * c[(UNKNOWN + 1) * (3 + i)] : 0.0;
+    }
+    told->n_error = widen * across(f, told->n);
+    if (!(told->n_error < MOST_ERROR))
+        for (int i = 0; i < 3; ++i)
+            told->n[i] = told->n_error = NAN;
+    if (!(widen * sqrt(rate) < MOST_ERROR))
+        return;
+    for (int i = 0; i < 3; ++i)
+        told->w[i] = w->rates[0][i] / usual;
+    told->w_error = widen * sqrt(rate) / usual;
+    if (!velocity(w, v, &factor, off))
+        return;
+    told->slip[0] = v[0] / usual - t->millimetres * told->w[1]; /* W x e = (W_y, -W_x, 0) */
+    told->slip[1] = v[1] / usual + t->millimetres * told->w[0];
+    told->slip_error = hypot(factor * place, t->millimetres * widen * sqrt(flat)) / usual;
+}
+
+fst_status follow_spin(const follow_turning *turning, fst_track *track, fst_error *error)
+{
+    double axis[3], widen, place, *room = malloc((size_t)(turning->count + 1) * sizeof *room);
+    fst_status status = room ? fst_track_add_turning(track, error)
+                             : fst_fail(error, FST_NO_MEMORY, "track", "no memory for the turning of a bead");
+    if (status == FST_OK && turning->count > 1) {
+        const double usual = usual_step(turning, room);
+        if (!follow_sphere_axis(&turning->sphere, axis))
+            axis[0] = axis[1] = axis[2] = NAN;
+        scatter(turning, usual, room, &widen, &place);
+        for (int i = 0; i < turning->count; ++i) {
+            window w;
+            const int middle = collect(turning, i, SIDE, usual, &w);
+            if (middle >= 0 && fit(&w, middle) && w.chi2 < MOST_CHI2 * widen * widen)
+                tell(turning, &turning->turns[i], &w, usual, widen, place, axis,
+                     &track->turning[turning->turns[i].frame]);
+        }
+    }
+    free(room);
+    return status;
+}

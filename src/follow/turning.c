@@ -1,0 +1,229 @@
+/* turning.c - the rotation of the bead in each frame.
+ *
+ * A bead that is filmed 240 times a second turns by up to 120 degrees from a frame to the next, so that little of what
+ * was seen is seen again.  What helps is that it nearly rolls, and that its surface is learnt on the way:
+ *
+ *   1. From a frame on, each next one is predicted: it turned as before, but for what rolling changed.  Rotations
+ *      around the prediction are tried against the surface seen so far, the best are refined by Gauss and Newton's
+ *      method, and the face is added to the surface.
+ *   2. That is tried from several frames; the one from which the next frames are foretold best begins the whole film,
+ *      forwards and then backwards.
+ *   3. A few times over all frames: the surface from all faces, the light on each point of the face, and each rotation
+ *      against that surface, from where it was and from where its neighbours would have it.
+ */
+#include "follow/pose.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/dot.h"
+#include "base/error.h"
+#include "base/order.h"
+#include "base/turn.h"
+#include "base/watch.h"
+
+enum { WINDOWS = 24, WINDOW = 60, EARLY = 6, PASSES = 40, SEARCHES = 3, ROUNDS = 3, SPELL = 20 };
+
+#define WIDE 1.1         /* rad around the prediction: at the start ... */
+#define USUAL 0.5        /* ... and later */
+#define LEAST_SPREAD 2.0 /* gray levels that marks change on a point of the face */
+#define ENOUGH 0.5       /* of what is foretold from a frame: no better one is looked for */
+#define LEAST_GAIN 2e-5  /* of what is explained, for another pass */
+#define LEAST_EXPLAINED 0.5
+
+/* ------------------------------------------------------------------ from frame to frame */
+
+/* The angular velocity with which the bead would roll from one frame to another: e x v / R. */
+static void rolls(const follow_turning *t, const follow_turn *from, const follow_turn *to, double w[3])
+{
+    const double step = (to->time - from->time) * t->millimetres;
+    w[0] = -(to->place[1] - from->place[1]) / step;
+    w[1] = (to->place[0] - from->place[0]) / step;
+    w[2] = 0.0;
+}
+
+/* Follow the bead from frame `from` towards frame `to`, which is not reached; frame `from` is known, and its face shown.
+ * Returns which part of the faces, on the mean over all frames but the early ones, the surface foretold. */
+static double follow(follow_turning *t, int from, int to, int shows)
+{
+    const int way = to < from ? -1 : 1;
+    double w[3] = {0.0, 0.0, 0.0}, rolled[3] = {0.0, 0.0, 0.0}, left = 0.0, unknown = 0.0;
+    int count = 0;
+    for (int i = from + way; way * (to - i) > 0; i += way, ++count) {
+        follow_turn *f = &t->turns[i], *before = f - way;
+        const double step = f->time - before->time;
+        double roll[3], by[3], spread = 0.0;
+        rolls(t, before, f, roll);
+        for (int k = 0; k < 3; ++k)
+            by[k] = (w[k] + roll[k] - rolled[k]) * step;
+        follow_face(t, f);
+        f->pose = before->pose;
+        f->pose.gain = 1.0;
+        fst_turn_by(f->pose.turn, by);
+        follow_search(t, f, count < EARLY ? WIDE : USUAL, &f->pose);
+        for (int k = 0; k < t->points; ++k)
+            spread += t->used[k]
+                          ? follow_bound(t->spread[k] * t->spread[k] / (t->sigma[k] * t->sigma[k])) / t->points
+                          : 0.0;
+        if (count >= EARLY) {
+            left += f->pose.misfit;
+            unknown += spread;
+        }
+        if (shows)
+            follow_show(t, f);
+        fst_turn_between((const double(*)[3])before->pose.turn, (const double(*)[3])f->pose.turn, by);
+        for (int k = 0; k < 3; ++k)
+            w[k] = by[k] / step;
+        memcpy(rolled, roll, sizeof rolled);
+    }
+    return unknown > 0.0 ? 1.0 - left / unknown : 0.0;
+}
+
+/* Begin with a frame in any rotation. */
+static void begin_at(follow_turning *t, int from)
+{
+    follow_turn *f = &t->turns[from];
+    f->pose = (follow_pose){.turn = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}, .gain = 1.0};
+    follow_sphere_clear(&t->sphere);
+    follow_face(t, f);
+    follow_show(t, f);
+}
+
+/* ------------------------------------------------------------------ all frames */
+
+/* The pose that two frames on one side foretell. */
+static int foretell(const follow_turning *t, int i, int way, follow_pose *pose)
+{
+    const int near = i + way, far = i + 2 * way;
+    if (far < 0 || far >= t->count || !t->turns[near].good || !t->turns[far].good)
+        return 0;
+    const follow_turn *one = &t->turns[near], *other = &t->turns[far];
+    double by[3];
+    fst_turn_between((const double(*)[3])other->pose.turn, (const double(*)[3])one->pose.turn, by);
+    for (int k = 0; k < 3; ++k)
+        by[k] *= (t->turns[i].time - one->time) / (one->time - other->time);
+    *pose = one->pose;
+    fst_turn_by(pose->turn, by);
+    return 1;
+}
+
+/* Improve the pose of a frame: from where it was, and in the first passes from where its neighbours would have it. */
+static void improve(follow_turning *t, int i, int pass)
+{
+    const int steps = pass < SEARCHES ? 12 : 3;
+    follow_turn *f = &t->turns[i];
+    follow_face(t, f);
+    follow_refine(t, f, steps, &f->pose);
+    for (int way = -1; way <= 1 && pass < SEARCHES; way += 2) {
+        follow_pose other;
+        if (!foretell(t, i, way, &other))
+            continue;
+        follow_search(t, f, pass == 0 ? USUAL : 0.0, &other);
+        if (other.misfit < f->pose.misfit)
+            f->pose = other;
+    }
+    for (int repeat = 0; repeat < 2 && pass > 0; ++repeat)
+        follow_recentre(t, f, steps);
+}
+
+/* Frames that are explained about as well as the others are good. */
+static void judge(follow_turning *t, double most, double *room)
+{
+    for (int i = 0; i < t->count; ++i)
+        room[i] = t->turns[i].pose.misfit;
+    const double usual = fst_median(room, (size_t)t->count);
+    for (int i = 0; i < t->count; ++i)
+        t->turns[i].good = t->turns[i].pose.misfit <= most * usual;
+}
+
+/* The frame from which the next ones are foretold best. */
+static fst_status choose_start(follow_turning *t, const fst_progress *progress, int *start, fst_error *error)
+{
+    double most = -INFINITY;
+    for (int k = 0; k < WINDOWS && most < ENOUGH; ++k) {
+        /* Windows far apart come first. */
+        const int from = (int)(fmod(0.61803398875 * k, 1.0) * fmax(0.0, t->count - WINDOW));
+        begin_at(t, from);
+        const double foretold = follow(t, from, from + WINDOW < t->count ? from + WINDOW : t->count, 1);
+        if (foretold > most) {
+            most = foretold;
+            *start = from;
+        }
+        const fst_status status = fst_tell(progress, 0.4 * k / WINDOWS, NULL, error);
+        if (status != FST_OK)
+            return status;
+    }
+    return FST_OK;
+}
+
+/* Follow the bead once more, from where it was followed best, against the surface that the better half of the frames
+ * shows: a chain that was lost on the way is found again. */
+static void again(follow_turning *t, double *room)
+{
+    int best = 0;
+    double least = INFINITY;
+    judge(t, 1.0, room);
+    follow_surface_learn(t);
+    for (int i = 0; i + SPELL <= t->count; ++i) {
+        double sum = 0.0;
+        for (int k = 0; k < SPELL; ++k)
+            sum += t->turns[i + k].pose.misfit;
+        if (sum < least) {
+            least = sum;
+            best = i + SPELL / 2;
+        }
+    }
+    (void)follow(t, best, t->count, 0);
+    (void)follow(t, best, -1, 0);
+}
+
+/* Find all rotations roughly. */
+static fst_status find_roughly(follow_turning *t, const fst_progress *progress, double *room, fst_error *error)
+{
+    int from = 0;
+    fst_status status = choose_start(t, progress, &from, error);
+    if (status != FST_OK)
+        return status;
+    begin_at(t, from);
+    (void)follow(t, from, t->count, 1);
+    (void)follow(t, from, -1, 1);
+    for (int round = 0; round < ROUNDS && status == FST_OK; ++round) {
+        again(t, room);
+        status = fst_tell(progress, 0.5 + 0.1 * round, NULL, error);
+    }
+    judge(t, 1.5, room);
+    return status;
+}
+
+fst_status follow_turning_find(follow_turning *turning, const fst_progress *progress, double *explained,
+                               fst_error *error)
+{
+    follow_turning *t = turning;
+    double *room = malloc((size_t)(t->count + 1) * sizeof *room), before = -INFINITY;
+    *explained = 0.0;
+    if (!room)
+        return fst_fail(error, FST_NO_MEMORY, "track", "no memory for the turning of a bead");
+    fst_status status = FST_OK;
+    if (t->count >= WINDOW && follow_light_begin(t) >= LEAST_SPREAD) {
+        status = find_roughly(t, progress, room, error);
+        for (int pass = 0; pass < PASSES && status == FST_OK && *explained > before; ++pass) {
+            before = pass > 2 ? *explained + LEAST_GAIN : -INFINITY;
+            follow_surface_learn(t);
+            if (pass > 0)
+                follow_light_learn(t);
+            for (int i = 0; i < t->count; ++i)
+                improve(t, i, pass);
+            follow_centre(t);
+            judge(t, 3.0, room);
+            *explained = follow_explain(t);
+            status = fst_tell(progress, 0.8 + 0.2 * pass / PASSES, NULL, error);
+        }
+        for (int i = 0; i < t->count; ++i)
+            follow_known(t, &t->turns[i]);
+        if (!(*explained > LEAST_EXPLAINED))
+            *explained = 0.0;
+    }
+    free(room);
+    return status;
+}

@@ -1,0 +1,389 @@
+/* How a bead turns, on rotations, cameras and faces that are known exactly: rotation vectors there and back, a camera from
+ * the plane that it sees, the axis of painted marks, W and slip with their errors, and faces with a highlight, a lamp
+ * from the side and noise, of which the rotations come back.
+ * labels: slow
+ * tests: follow/patch.c follow/view.c follow/sphere.c follow/pose.c follow/light.c follow/turning.c follow/spin.c
+ * base/turn.h */
+#include "numeric.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/chance.h"
+#include "base/constants.h"
+#include "base/dot.h"
+#include "base/turn.h"
+#include "follow/pose.h"
+
+#define STILL                                                                                                  \
+    {                                                                                                          \
+        {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0},                                                                      \
+        {                                                                                                      \
+            0.0, 0.0, 1.0                                                                                      \
+        }                                                                                                      \
+    }
+
+/* A number between -1 and 1. */
+static double chance(uint64_t *state)
+{
+    return (double)(fst_draw(state) >> 11) / 4503599627370496.0 - 1.0;
+}
+
+/* Almost normal, with deviation 1. */
+static double normal(uint64_t *state)
+{
+    double sum = 0.0;
+    for (int i = 0; i < 12; ++i)
+        sum += 0.5 * chance(state);
+    return sum;
+}
+
+static void rotation_vectors(void **state)
+{
+    (void)state;
+    uint64_t seed = 5;
+    const double sizes[] = {0.0, 1e-9, 1e-4, 0.5, 2.0, 3.1, 3.14159, FST_PI};
+    for (size_t k = 0; k < sizeof sizes / sizeof *sizes; ++k) {
+        double from[3][3] = STILL, to[3][3], angle[3], found[3], length;
+        for (int i = 0; i < 3; ++i)
+            angle[i] = chance(&seed);
+        fst_turn_by(from, angle);
+        length = sqrt(fst_dot(angle, angle, 3));
+        for (int i = 0; i < 3; ++i)
+            angle[i] *= sizes[k] / length;
+        memcpy(to, from, sizeof to);
+        fst_turn_by(to, angle);
+        fst_turn_between((const double(*)[3])from, (const double(*)[3])to, found);
+        CHECK_CLOSE(sqrt(fst_dot(found, found, 3)), sizes[k], 1e-7);
+        fst_turn_by(from, found);
+        for (int i = 0; i < 9; ++i)
+            CHECK_CLOSE(from[i / 3][i % 3], to[i / 3][i % 3], 1e-7);
+    }
+    /* A quarter turn about z takes x to y. */
+    double turn[3][3] = STILL;
+    fst_turn_by(turn, (const double[3]){0.0, 0.0, 0.5 * FST_PI});
+    CHECK_CLOSE(turn[1][0], 1.0, 1e-12);
+}
+
+/* A camera at a place that looks at the origin: x to the right in its picture, as a person holds it. */
+static void cameras(void **state)
+{
+    (void)state;
+    const double place[3] = {40.0, -90.0, 280.0}, focal = 900.0, distance = sqrt(fst_dot(place, place, 3));
+    double ahead[3], right[3] = {1.0, 0.0, 0.0}, down[3];
+    for (int i = 0; i < 3; ++i)
+        ahead[i] = -place[i] / distance;
+    const double along = ahead[0];
+    for (int i = 0; i < 3; ++i)
+        right[i] -= along * ahead[i];
+    const double length = sqrt(fst_dot(right, right, 3));
+    for (int i = 0; i < 3; ++i)
+        right[i] /= length;
+    for (int i = 0; i < 3; ++i)
+        down[i] = ahead[(i + 1) % 3] * right[(i + 2) % 3] - ahead[(i + 2) % 3] * right[(i + 1) % 3];
+    /* Four corners of a square, as it sees them. */
+    follow_scale scale = {.kind = FOLLOW_SCALE_FOUR, .length = {40.0, 40.0}};
+    for (int k = 0; k < 4; ++k) {
+        const double corner[3] = {k == 1 || k == 2 ? 20.0 : -20.0, k < 2 ? -20.0 : 20.0, 0.0};
+        double off[3];
+        for (int i = 0; i < 3; ++i)
+            off[i] = corner[i] - place[i];
+        const double depth = fst_dot(off, ahead, 3);
+        scale.points[k][0] = 319.5 + focal * fst_dot(off, right, 3) / depth;
+        scale.points[k][1] = 239.5 + focal * fst_dot(off, down, 3) / depth;
+    }
+    follow_plane plane;
+    follow_camera camera;
+    fst_error error;
+    assert_int_equal(follow_plane_of_rectangle(&scale, &plane, &error), FST_OK);
+    assert_true(follow_camera_find(&plane, 640, 480, distance, &camera));
+    CHECK_CLOSE(camera.focal, focal, 1e-6 * focal);
+    double view[3][3];
+    const double column = 500.0, row = 120.0;
+    const double radius = follow_camera_view(&camera, column, row, 2.5, view);
+    double x, y;
+    follow_plane_map(&plane, column, row, &x, &y);
+    /* The plane's x points to the right in the picture, which here is not quite the axis of `place`: compare lengths. */
+    const double to[3] = {camera.place[0] - x, camera.place[1] - y, camera.place[2]},
+                 far = sqrt(fst_dot(to, to, 3));
+    for (int i = 0; i < 3; ++i)
+        CHECK_CLOSE(view[i][2], to[i] / far, 1e-9);
+    CHECK_CLOSE(camera.place[2], place[2], 1e-6);
+    CHECK_CLOSE(hypot(camera.place[0], camera.place[1]), hypot(place[0], place[1]), 1e-6);
+    const double depth = fst_dot(to, to, 3) / far * fst_dot(camera.axes[2], to, 3) / far;
+    CHECK_CLOSE(radius, focal * 2.5 / fabs(depth), 1e-9 * radius);
+    /* Right-handed: to the right, up, and to the camera. */
+    for (int i = 0; i < 3; ++i)
+        CHECK_CLOSE(view[(i + 1) % 3][0] * view[(i + 2) % 3][1] - view[(i + 2) % 3][0] * view[(i + 1) % 3][1],
+                    view[i][2], 1e-9);
+}
+
+/* ------------------------------------------------------------------ marks */
+
+/* A dark half around an axis with a dot on each half, or two dots: 0 where it is dark. */
+static double paint(const double point[3], int half)
+{
+    static const double north[3] = {0.36, 0.48, 0.8}, side[3] = {0.8, -0.6, 0.0},
+                        spot[3] = {-0.9, -0.3, -0.316227766};
+    const double n = fst_dot(point, north, 3);
+    if (!half)
+        return n > 0.87 || fst_dot(point, side, 3) > 0.95 ? 0.0 : 1.0;
+    const double out[3] = {0.5, 0.7, 0.1}, reach = sqrt(fst_dot(out, out, 3));
+    if (fst_dot(point, out, 3) / reach > 0.96 && n > 0.4)
+        return 1.0;
+    return n > 0.0 || fst_dot(point, spot, 3) > 0.93 ? 0.0 : 1.0;
+}
+
+static void axes_of_marks(void **state)
+{
+    (void)state;
+    follow_sphere sphere;
+    assert_true(follow_sphere_begin(&sphere));
+    for (int half = 0; half < 2; ++half) {
+        uint64_t seed = 8;
+        double axis[3] = {0.0, 0.0, 0.0};
+        follow_sphere_clear(&sphere);
+        assert_false(follow_sphere_axis(&sphere, axis));
+        for (int k = 0; k < 60000; ++k) {
+            double point[3];
+            for (int i = 0; i < 3; ++i)
+                point[i] = normal(&seed);
+            const double length = sqrt(fst_dot(point, point, 3));
+            for (int i = 0; i < 3; ++i)
+                point[i] /= length;
+            follow_sphere_add(&sphere, point, paint(point, half), 1.0);
+        }
+        assert_true(follow_sphere_axis(&sphere, axis));
+        CHECK_CLOSE(fst_dot(axis, (const double[3]){0.36, 0.48, 0.8}, 3), 1.0, half ? 1e-3 : 5e-4);
+        /* The gradient is that of the value. */
+        double value[2], slope[3], at[3] = {0.48, 0.6, 0.64}, beside[3] = {0.4801, 0.6, 0.64};
+        assert_true(follow_sphere_at(&sphere, at, &value[0], slope));
+        assert_true(follow_sphere_at(&sphere, beside, &value[1], NULL));
+        CHECK_CLOSE((value[1] - value[0]) / 1e-4, slope[0], 0.02 + 0.02 * fabs(slope[0]));
+    }
+    free(sphere.nodes);
+}
+
+/* ------------------------------------------------------------------ a bead that moves */
+
+enum { FRAMES = 140, FINE = 40 };
+#define RADIUS 2.5
+#define STEP (1.0 / 240.0)
+
+/* Its velocity (mm/s): it goes round, faster and slower. */
+static void velocity(double t, double v[2])
+{
+    v[0] = 300.0 * cos(20.0 * t) + 80.0 * cos(70.0 * t);
+    v[1] = 300.0 * sin(20.0 * t) + 60.0 * sin(60.0 * t);
+}
+
+/* It rolls but for a slip of (30, -20) mm/s, and spins about the vertical. */
+static void rate(double t, double w[3])
+{
+    double v[2];
+    velocity(t, v);
+    w[0] = -(v[1] + 20.0) / RADIUS;
+    w[1] = (v[0] - 30.0) / RADIUS;
+    w[2] = 30.0 * sin(45.0 * t);
+}
+
+/* Fill in places and true rotations. */
+static void move(follow_turning *t)
+{
+    double turn[3][3] = STILL, place[2] = {0.0, 0.0};
+    t->turns = calloc(FRAMES, sizeof *t->turns);
+    t->count = t->capacity = FRAMES;
+    t->millimetres = RADIUS;
+    fst_turn_by(turn, (const double[3]){0.4, -0.8, 0.3});
+    for (int i = 0; i < FRAMES; ++i) {
+        follow_turn *f = &t->turns[i];
+        *f = (follow_turn){
+            .frame = i, .good = 1, .time = STEP * i, .bright = 200.0, .shrink = 1.0, .view = STILL};
+        memcpy(f->place, place, sizeof place);
+        memcpy(f->pose.turn, turn, sizeof turn);
+        f->pose.gain = 1.0;
+        for (int k = 0; k < FINE; ++k) {
+            double w[3], v[2];
+            rate(STEP * (i + (k + 0.5) / FINE), w);
+            velocity(STEP * (i + (k + 0.5) / FINE), v);
+            for (int j = 0; j < 3; ++j)
+                w[j] *= STEP / FINE;
+            fst_turn_by(turn, w);
+            for (int j = 0; j < 2; ++j)
+                place[j] += v[j] * STEP / FINE;
+        }
+    }
+}
+
+static void begin(follow_turning *t)
+{
+    fst_error error;
+    assert_int_equal(follow_turning_begin(t, 30.0, &error), FST_OK);
+    move(t);
+}
+
+static void make_track(fst_track *track)
+{
+    fst_error error;
+    *track = (fst_track){.rows = 0};
+    for (int i = 0; i < FRAMES; ++i)
+        assert_int_equal(fst_track_append(track, i, STEP * i, 0.0, 0.0, &error), FST_OK);
+}
+
+/* The surface of the sphere, so that n is that of the marks. */
+static void show_marks(follow_turning *t)
+{
+    uint64_t seed = 4;
+    for (int k = 0; k < 60000; ++k) {
+        double point[3];
+        for (int i = 0; i < 3; ++i)
+            point[i] = normal(&seed);
+        const double length = sqrt(fst_dot(point, point, 3));
+        for (int i = 0; i < 3; ++i)
+            point[i] /= length;
+        follow_sphere_add(&t->sphere, point, paint(point, 1), 1.0);
+    }
+}
+
+/* Rotations with known errors, and places with others: W and slip are right, as often as their errors say. */
+static void spins(void **state)
+{
+    (void)state;
+    uint64_t seed = 3;
+    follow_turning t;
+    fst_track track;
+    fst_error error;
+    begin(&t);
+    show_marks(&t);
+    double first[3][3];
+    memcpy(first, t.turns[70].pose.turn, sizeof first);
+    const double north[3] = {0.36, 0.48, 0.8};
+    for (int i = 0; i < FRAMES; ++i) {
+        double by[3];
+        for (int j = 0; j < 3; ++j) { /* one axis is less sure than the others */
+            const double sigma = j == 0 ? 0.02 : 0.005;
+            by[j] = sigma * normal(&seed);
+            t.turns[i].known[j][j] = 1.0 / (sigma * sigma);
+        }
+        fst_turn_by(t.turns[i].pose.turn, by);
+        for (int j = 0; j < 2; ++j)
+            t.turns[i].place[j] += 0.01 * normal(&seed);
+    }
+    make_track(&track);
+    assert_int_equal(follow_spin(&t, &track, &error), FST_OK);
+    int within[2] = {0, 0}, all[2] = {0, 0}, told = 0;
+    for (int i = 0; i < FRAMES; ++i) {
+        const fst_turning *f = &track.turning[i];
+        double w[3];
+        rate(STEP * i, w);
+        if (!isfinite(f->slip[0]))
+            continue;
+        ++told;
+        for (int j = 0; j < 3; ++j, ++all[0])
+            within[0] += fabs(f->w[j] - w[j]) < f->w_error;
+        within[1] += fabs(f->slip[0] - 30.0) < f->slip_error;
+        within[1] += fabs(f->slip[1] + 20.0) < f->slip_error;
+        all[1] += 2;
+        assert_true(fabs(f->slip[0] - 30.0) < 6.0 * f->slip_error);
+    }
+    assert_true(told >= FRAMES - 8);
+    print_message("W %d of %d, slip %d of %d within an error\n", within[0], all[0], within[1], all[1]);
+    for (int k = 0; k < 2; ++k)
+        assert_true(within[k] > 0.55 * all[k] && within[k] < 0.9 * all[k]);
+    for (int i = 0; i < 3; ++i)
+        CHECK_CLOSE(track.turning[70].n[i], fst_dot(first[i], north, 3), 0.06);
+    fst_track_free(&track);
+    follow_turning_end(&t);
+}
+
+/* ------------------------------------------------------------------ faces */
+
+/* Paint the faces: a lamp from the side, a highlight that stays where it is, noise, and the plate around. */
+static void paint_faces(follow_turning *t, double contrast)
+{
+    uint64_t seed = 6;
+    t->levels = malloc((size_t)t->points * FRAMES);
+    for (int i = 0; i < FRAMES; ++i)
+        for (int k = 0; k < t->points; ++k) {
+            const double right = t->grid[k][0], up = t->grid[k][1], far = hypot(right, up);
+            const double cover = fmax(0.0, fmin(1.0, 15.0 * (1.0 - far) + 0.5));
+            double level = 0.0;
+            for (int s = 0; s < 9; ++s) { /* a pixel sees a small area */
+                const double u = right + (s % 3 - 1) / 45.0, v = up + (double)(s / 3 - 1) / 45.0;
+                const double size = fmax(1.0, hypot(u, v) / 0.999),
+                             front = sqrt(fmax(0.0, 1.0 - (u * u + v * v) / (size * size)));
+                const double facing[3] = {u / size, v / size, front};
+                double point[3];
+                follow_on_bead((const double(*)[3])t->turns[i].pose.turn, facing, point);
+                const double light = 70.0 + 60.0 * (0.5 * facing[1] - 0.4 * facing[0] + 0.7 * front);
+                level += light * (1.0 - contrast * (1.0 - paint(point, 1))) / 9.0;
+            }
+            if (hypot(right + 0.25, up - 0.3) < 0.15)
+                level = 240.0;
+            level = cover * level + (1.0 - cover) * 200.0 + 2.0 * normal(&seed);
+            t->levels[i * t->points + k] = (unsigned char)fmax(0.0, fmin(255.0, level + 0.5));
+        }
+}
+
+/* With the surface and the light learnt of all faces, rotations that were put wrong come back. */
+static void faces(void **state)
+{
+    (void)state;
+    uint64_t seed = 12;
+    follow_turning t;
+    double squares = 0.0, before = 0.0, claimed = 0.0;
+    begin(&t);
+    paint_faces(&t, 0.8);
+    (void)follow_light_begin(&t);
+    for (int repeat = 0; repeat < 3; ++repeat) {
+        follow_surface_learn(&t);
+        follow_light_learn(&t);
+        assert_true(follow_explain(&t) > 0.9);
+    }
+    for (int i = 0; i < FRAMES; ++i) {
+        follow_turn *f = &t.turns[i];
+        follow_pose pose = f->pose;
+        double by[3], off[3];
+        for (int k = 0; k < 3; ++k)
+            by[k] = 0.1 * chance(&seed);
+        fst_turn_by(pose.turn, by);
+        follow_face(&t, f);
+        follow_refine(&t, f, 12, &pose);
+        fst_turn_between((const double(*)[3])f->pose.turn, (const double(*)[3])pose.turn, off);
+        follow_known(&t, f);
+        squares += fst_dot(off, off, 3) / (3 * FRAMES);
+        before += fst_dot(by, by, 3) / (3 * FRAMES);
+        claimed += 1.0 / f->known[2][2] / FRAMES;
+    }
+    print_message("rms %.3f degrees of %.3f\n", sqrt(squares) * 180.0 / FST_PI, sqrt(before) * 180.0 / FST_PI);
+    assert_true(sqrt(squares) < 1.5 * FST_PI / 180.0); /* half of what a film is to reach */
+    assert_true(claimed > 0.0 && sqrt(claimed) < 0.02);
+    follow_turning_end(&t);
+}
+
+/* A bead without marks has no turning. */
+static void no_marks(void **state)
+{
+    (void)state;
+    follow_turning t;
+    double explained;
+    fst_error error;
+    begin(&t);
+    paint_faces(&t, 0.0);
+    assert_int_equal(follow_turning_find(&t, NULL, &explained, &error), FST_OK);
+    assert_true(explained == 0.0);
+    follow_turning_end(&t);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rotation_vectors),
+        cmocka_unit_test(cameras),
+        cmocka_unit_test(axes_of_marks),
+        cmocka_unit_test(spins),
+        cmocka_unit_test(faces),
+        cmocka_unit_test(no_marks),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
