@@ -123,7 +123,7 @@ static void print_report(const fst_film_track_report *r, FILE *out)
             out, "slip        %.1f %% of the velocity; in %.0f %% of the frames more than twice its error\n",
             100.0 * r->slip, 100.0 * r->slipping);
     } else if (!isnan(r->turned_share))
-        (void)fprintf(out, "turning     not found: no marks that turn with the bead were seen\n");
+        (void)fprintf(out, "turning     not found: no marks that turn with the bead could be followed\n");
 }
 
 /* Two scales of the same film that do not agree within their errors. */

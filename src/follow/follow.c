@@ -105,8 +105,8 @@ static fst_status follow_frames(tracking *t, follow_decoder *decoder, follow_bea
             status =
                 follow_overlay_frame(&t->overlay, &t->still, decoder->pixels, index, &t->look, places, error);
         if (status == FST_OK && t->turning.grid)
-            status = follow_turning_take(&t->turning, &t->still, decoder->pixels, follower->gains, &places[0],
-                                         index, t->source.times[index], error);
+            status = follow_turning_take(&t->turning, &t->still, decoder->pixels, follower->film.gains,
+                                         &places[0], index, t->source.times[index], error);
         if (status != FST_OK)
             return status;
         count_places(t, index, places, doubt);
@@ -373,7 +373,7 @@ static fst_status find_turning(tracking *t, const fst_progress *progress, fst_tr
     if (status == FST_OK)
         count_turning(track, radius, r);
     if (status == FST_OK &&
-        2 * r->slips < t->turning.count) { /* rotations that do not follow from each other */
+        r->slips < 0.95 * (t->turning.count - 4)) { /* rotations that do not follow from each other */
         r->turned = r->slips = 0;
         r->turned_share = 0.0;
         r->slip = r->slipping = NAN;

@@ -25,12 +25,12 @@
 
 enum { WINDOWS = 24, WINDOW = 60, EARLY = 6, PASSES = 40, SEARCHES = 3, ROUNDS = 3, SPELL = 20 };
 
-#define WIDE 1.1         /* rad around the prediction: at the start ... */
-#define USUAL 0.5        /* ... and later */
-#define LEAST_SPREAD 2.0 /* gray levels that marks change on a point of the face */
-#define ENOUGH 0.5       /* of what is foretold from a frame: no better one is looked for */
-#define LEAST_GAIN 2e-5  /* of what is explained, for another pass */
-#define LEAST_EXPLAINED 0.5
+#define WIDE 1.1            /* rad around the prediction: at the start ... */
+#define USUAL 0.5           /* ... and later */
+#define LEAST_SPREAD 2.0    /* gray levels that marks change on a point of the face */
+#define ENOUGH 0.5          /* of what is foretold from a frame: no better one is looked for */
+#define LEAST_GAIN 2e-5     /* of what is explained, for another pass */
+#define LEAST_EXPLAINED 0.8 /* chains that are wrong in part explain up to 0.8 */
 
 /* ------------------------------------------------------------------ from frame to frame */
 
@@ -137,20 +137,21 @@ static void judge(follow_turning *t, double most, double *room)
         t->turns[i].good = t->turns[i].pose.misfit <= most * usual;
 }
 
-/* The frame from which the next ones are foretold best. */
-static fst_status choose_start(follow_turning *t, const fst_progress *progress, int *start, fst_error *error)
+/* A frame from which the next ones are foretold well, or else the best one, of the windows from number `next` on. */
+static fst_status choose_start(follow_turning *t, const fst_progress *progress, int *next, int *start,
+                               fst_error *error)
 {
     double most = -INFINITY;
-    for (int k = 0; k < WINDOWS && most < ENOUGH; ++k) {
+    for (; *next < WINDOWS && most < ENOUGH; ++*next) {
         /* Windows far apart come first. */
-        const int from = (int)(fmod(0.61803398875 * k, 1.0) * fmax(0.0, t->count - WINDOW));
+        const int from = (int)(fmod(0.61803398875 * *next, 1.0) * fmax(0.0, t->count - WINDOW));
         begin_at(t, from);
         const double foretold = follow(t, from, from + WINDOW < t->count ? from + WINDOW : t->count, 1);
         if (foretold > most) {
             most = foretold;
             *start = from;
         }
-        const fst_status status = fst_tell(progress, 0.4 * k / WINDOWS, NULL, error);
+        const fst_status status = fst_tell(progress, 0.4 * *next / WINDOWS, NULL, error);
         if (status != FST_OK)
             return status;
     }
@@ -179,10 +180,14 @@ static void again(follow_turning *t, double *room)
 }
 
 /* Find all rotations roughly. */
-static fst_status find_roughly(follow_turning *t, const fst_progress *progress, double *room, fst_error *error)
+static fst_status find_roughly(follow_turning *t, const fst_progress *progress, int *next, double *room,
+                               fst_error *error)
 {
     int from = 0;
-    fst_status status = choose_start(t, progress, &from, error);
+    (void)follow_light_begin(t);
+    for (int i = 0; i < t->count; ++i)
+        t->turns[i].shift[0] = t->turns[i].shift[1] = 0.0;
+    fst_status status = choose_start(t, progress, next, &from, error);
     if (status != FST_OK)
         return status;
     begin_at(t, from);
@@ -196,34 +201,50 @@ static fst_status find_roughly(follow_turning *t, const fst_progress *progress, 
     return status;
 }
 
+/* Improve all rotations until no more is explained.  Returns which part is. */
+static fst_status improve_all(follow_turning *t, const fst_progress *progress, double *room, double *explained,
+                              fst_error *error)
+{
+    double before = -INFINITY;
+    fst_status status = FST_OK;
+    *explained = 0.0;
+    for (int pass = 0; pass < PASSES && status == FST_OK && *explained > before; ++pass) {
+        if (pass == SEARCHES && *explained < LEAST_EXPLAINED)
+            return FST_OK; /* a wrong chain does not become right */
+        before = pass > 2 ? *explained + LEAST_GAIN : -INFINITY;
+        follow_surface_learn(t);
+        if (pass > 0)
+            follow_light_learn(t);
+        for (int i = 0; i < t->count; ++i)
+            improve(t, i, pass);
+        follow_centre(t);
+        judge(t, 3.0, room);
+        *explained = follow_explain(t);
+        status = fst_tell(progress, 0.8 + 0.2 * pass / PASSES, NULL, error);
+    }
+    return status;
+}
+
 fst_status follow_turning_find(follow_turning *turning, const fst_progress *progress, double *explained,
                                fst_error *error)
 {
     follow_turning *t = turning;
-    double *room = malloc((size_t)(t->count + 1) * sizeof *room), before = -INFINITY;
+    double *room = malloc((size_t)(t->count + 1) * sizeof *room);
+    int next = 0;
     *explained = 0.0;
     if (!room)
         return fst_fail(error, FST_NO_MEMORY, "track", "no memory for the turning of a bead");
     fst_status status = FST_OK;
-    if (t->count >= WINDOW && follow_light_begin(t) >= LEAST_SPREAD) {
-        status = find_roughly(t, progress, room, error);
-        for (int pass = 0; pass < PASSES && status == FST_OK && *explained > before; ++pass) {
-            before = pass > 2 ? *explained + LEAST_GAIN : -INFINITY;
-            follow_surface_learn(t);
-            if (pass > 0)
-                follow_light_learn(t);
-            for (int i = 0; i < t->count; ++i)
-                improve(t, i, pass);
-            follow_centre(t);
-            judge(t, 3.0, room);
-            *explained = follow_explain(t);
-            status = fst_tell(progress, 0.8 + 0.2 * pass / PASSES, NULL, error);
-        }
-        for (int i = 0; i < t->count; ++i)
-            follow_known(t, &t->turns[i]);
-        if (!(*explained > LEAST_EXPLAINED))
-            *explained = 0.0;
+    const int marked = t->count >= WINDOW && follow_light_begin(t) >= LEAST_SPREAD;
+    while (marked && status == FST_OK && next < WINDOWS && *explained < LEAST_EXPLAINED) {
+        status = find_roughly(t, progress, &next, room, error);
+        if (status == FST_OK)
+            status = improve_all(t, progress, room, explained, error);
     }
+    if (*explained < LEAST_EXPLAINED)
+        *explained = 0.0;
+    for (int i = 0; i<t->count && * explained> 0.0; ++i)
+        follow_known(t, &t->turns[i]);
     free(room);
     return status;
 }

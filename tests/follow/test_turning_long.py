@@ -85,7 +85,7 @@ class Turning(films.OnFilms):
 
     def test_a_bead_without_marks(self):
         out, said = self.turned("bare", "--to", "28")
-        self.assertIn("no marks that turn with the bead were seen", said)
+        self.assertIn("no marks that turn with the bead could be followed", said)
         names, rows = films.read(out)
         self.assertIn("slip_error [mm/s]", names)
         self.assertTrue(all(math.isnan(cell) for row in rows for cell in row[4:]))
