@@ -1,7 +1,8 @@
 /* Runs of several beads: what is told of opposite beads, a walker, a bar and a bead that leaves the plate, and what is
  * refused.
  *
- * tests: beads/run.c beads/seen.c beads/groups.c beads/setup.c */
+ * tests: beads/run.c beads/seen.c beads/groups.c beads/setup.c
+ * labels: numbers */
 #include <festoon/beads.h>
 
 #include "physics.h"

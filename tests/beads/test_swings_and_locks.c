@@ -1,6 +1,7 @@
 /* Exact motions of one bead in a field of the laboratory: it swings, precesses, steps out of a turning field, and locks to
  * a wave.
- * tests: model/surroundings.c beads/look.c beads/flow.c */
+ * tests: model/surroundings.c beads/look.c beads/flow.c
+ * labels: numbers */
 #include "surrounded.h"
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))

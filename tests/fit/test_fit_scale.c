@@ -1,7 +1,7 @@
 /* A scale that is wrong by a known share: all lengths of a table, or of a film, are wrong alike, and the errors of
  * kappa gamma^2 and gamma cover the truth all the same.
  * tests: fit/problem.c fit/track.c
- * labels: slow */
+ * labels: slow numbers */
 #include "numeric.h"
 #include "fit_films.h"
 

@@ -2,7 +2,7 @@
  * overtake each other, and frames are missing.  A name that goes over to the other bead must be told as uncertain in that
  * frame, and not everything may be called uncertain.  And spots of two to four beads are cut into beads.
  * tests: follow/beads.c follow/split.c
- * labels: slow */
+ * labels: slow numbers */
 #include "numeric.h"
 
 #include <stdlib.h>

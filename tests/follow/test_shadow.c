@@ -1,6 +1,6 @@
 /* The bead's diameter and place beside a shadow of known darkness, offset and softness, and without one.
  * tests: follow/shadow.c follow/learn.c follow/bead.c
- * labels: slow */
+ * labels: slow numbers */
 #include "numeric.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* How a bead turns, on rotations, cameras and faces that are known exactly: rotation vectors there and back, a camera from
  * the plane that it sees, the axis of painted marks, W and slip with their errors, and faces with a highlight, a lamp
  * from the side and noise, of which the rotations come back.
- * labels: slow
+ * labels: slow numbers
  * tests: follow/patch.c follow/view.c follow/sphere.c follow/pose.c follow/light.c follow/turning.c follow/spin.c
  * base/turn.h */
 #include "numeric.h"

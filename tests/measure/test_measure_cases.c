@@ -1,7 +1,8 @@
 /* fst_measure_track() on films of beads that the library moves: each kind of motion, and each fault of a film,
  * with what must come out; and the coverage of errors over a few films (test_measure_coverage.c has many).
  * tests: measure/measure.c measure/clean.c measure/geometry.c measure/spectrum.c measure/drive.c measure/settle.c
- *   measure/errors.c measure/sharpen.c measure/regress.c tracks/track.c */
+ *   measure/errors.c measure/sharpen.c measure/regress.c tracks/track.c
+ * labels: numbers */
 #include "measure_coverage.h"
 
 /* The settled motion at a drive, followed for so many seconds. */

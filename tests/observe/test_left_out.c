@@ -1,6 +1,7 @@
 /* A part of a window in which the motion repeats itself is not observed (observe/left_out.h): means, marks and
  * returns are those of a window that was observed from end to end, and an orbit that is left is noticed.
- * tests: observe/left_out.c */
+ * tests: observe/left_out.c
+ * labels: numbers */
 #include "branches.h"
 #include "physics.h"
 

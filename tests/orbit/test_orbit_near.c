@@ -45,8 +45,8 @@ static void test_same_orbit(void **state)
 static void test_dry_orbits_and_rest(void **state)
 {
     (void)state;
-    static const double frequencies[] = {10.7, 12.0, 13.0, 16.0, 18.0};
-    for (int i = 0; i < 5; ++i) {
+    static const double frequencies[] = {10.7, 16.0};
+    for (int i = 0; i < 2; ++i) {
         fst_params params = fst_default_params();
         params.friction_law = FST_FRICTION_COULOMB;
         params.friction_mu = 0.18;
