@@ -136,6 +136,10 @@ typedef struct fst_fit {
     double
         widened; /* 1; or, where chi2 is no parabola, by how much the error of the parameter of which that is most
                            true exceeds the curvature's: kappa_gamma2_error was multiplied by it */
+    int slip_frames; /* of a track: frames whose slip was measured (fst_turning) */
+    double
+        slip_misfit; /* how far the model's slip is from it: the root of the mean square of a component's difference
+                           over its error; NAN: none was measured.  It is not fitted, but judges the friction law */
     double aicc;
     fst_fit_outlier *outliers;
     size_t outlier_count;

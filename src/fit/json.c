@@ -102,6 +102,10 @@ char *fst_fit_json(const fst_params *params, const fst_fit *fit)
     fst_json_integer(&json, "points", fit->points);
     fst_json_real(&json, "error_scale", fit->error_scale);
     fst_json_real(&json, "aicc", fit->aicc);
+    if (fit->slip_frames > 0) {
+        fst_json_integer(&json, "slip_frames", fit->slip_frames);
+        fst_json_real(&json, "slip_misfit", fit->slip_misfit);
+    }
     fst_json_text(&json, "weakest", fit->weakest);
     put_outliers(&json, fit);
     if (fit->rival_count)

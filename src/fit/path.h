@@ -11,6 +11,7 @@ enum { FIT_MODES = 40, FIT_PATH_TERMS = 2 * FIT_MODES + 1 };
 /* In the frame of the magnet an orbit is periodic: z = sum of c_j exp(i j w t). */
 typedef struct fit_path {
     double complex terms[FIT_PATH_TERMS]; /* c_(j - FIT_MODES), m */
+    double complex slip[FIT_PATH_TERMS];  /* the same of the slip V, m/s */
     double period;                        /* s */
 } fit_path;
 
@@ -21,5 +22,8 @@ fst_status fit_path_make(const fst_params *params, const fst_orbit *orbit, fit_p
  * magnet at the angle `turn` at t = 0, the orbit at the part `phase` of its period. */
 double complex fit_path_at(const fit_path *path, double drive_hz, double turn, double phase, double exposure,
                            double t);
+
+/* The slip V at the time t, in the laboratory. */
+double complex fit_path_slip_at(const fit_path *path, double drive_hz, double turn, double phase, double t);
 
 #endif

@@ -198,3 +198,25 @@ fst_status fit_search_all(fit_problem *p, double *u, double *chi2, int *too_many
     }
     return status;
 }
+
+fst_status fit_seek(const fst_params *params, const fst_points *points, const fst_fit_options *options,
+                    fst_params *found, fst_error *error)
+{
+    fit_problem p;
+    fst_fit unsaid = {0};
+    fit_stage stage = {.outer = options->progress};
+    const fst_progress progress = {&stage, fit_stage_tell};
+    double u[FIT_MOST] = {0.0}, chi2;
+    int too_many;
+    fit_stage_begin(&stage, "search", 0.0, 1.0, 15.0);
+    fst_status status = fit_problem_begin(&p, params, points, options, &progress, error);
+    if (status == FST_OK)
+        status = fit_mind_signs(&p, &unsaid, error);
+    if (status == FST_OK)
+        status = fit_search_all(&p, u, &chi2, &too_many, error);
+    if (status == FST_OK)
+        (void)fit_space_params(&p.space, u, found);
+    fit_problem_free(&p);
+    fst_fit_free(&unsaid);
+    return status;
+}

@@ -28,6 +28,10 @@ fst_status fit_find_start(fit_problem *p, double *u, fst_error *error);
 /* The whole search from the coordinates u on: a start, the minimum, outliers. */
 fst_status fit_search_all(fit_problem *p, double *u, double *chi2, int *too_many, fst_error *error);
 
+/* The parameters with which the search ends, where no more than these is wanted of a table: a start for another one. */
+fst_status fit_seek(const fst_params *params, const fst_points *points, const fst_fit_options *options,
+                    fst_params *found, fst_error *error);
+
 /* Akaike's criterion with the correction for few numbers (Hurvich and Tsai 1989); NAN: too few. */
 double fit_aicc(double chi2, int points, int parameters);
 

@@ -43,7 +43,9 @@ typedef struct film_fit {
     int frames, used;          /* all; those of the present window */
     double *t;
     double complex *z;
-    double *weight; /* 0: left out */
+    double *weight;       /* 0: left out */
+    double complex *slip; /* as measured, m/s */
+    double *slip_error;   /* NAN: it was not */
     double drive, sense, turn, phase;
     double complex centre;
     double exposure[2];             /* and its error; 0: exact */
@@ -272,7 +274,9 @@ static fst_status take_frames(film_fit *f, const fst_track *track, const fst_mea
     f->t = calloc(track->rows + 1, sizeof *f->t);
     f->z = calloc(track->rows + 1, sizeof *f->z);
     f->weight = calloc(track->rows + 1, sizeof *f->weight);
-    if (!f->t || !f->z || !f->weight)
+    f->slip = calloc(track->rows + 1, sizeof *f->slip);
+    f->slip_error = calloc(track->rows + 1, sizeof *f->slip_error);
+    if (!f->t || !f->z || !f->weight || !f->slip || !f->slip_error)
         return fst_fail(error, FST_NO_MEMORY, "fst_fit", "out of memory");
     (void)snprintf(one, sizeof one, "1 %s", track->length_unit);
     if (fst_parse_value(one, FST_UNIT_LENGTH, &unit, NULL) != FST_OK)
@@ -284,6 +288,9 @@ static fst_status take_frames(film_fit *f, const fst_track *track, const fst_mea
         const double x = track->x[i] - seen->centre[0], y = track->y[i] - seen->centre[1];
         f->t[f->frames] = track->t[i] - track->t[0];
         f->z[f->frames] = unit * (x + y * I);
+        const fst_turning *turning = track->turning ? &track->turning[i] : NULL;
+        f->slip[f->frames] = turning ? unit * (turning->slip[0] + turning->slip[1] * I) : NAN;
+        f->slip_error[f->frames] = turning ? unit * turning->slip_error : NAN;
         f->weight[f->frames++] = 1.0;
     }
     return FST_OK;
@@ -397,6 +404,35 @@ static fst_status estimate(film_fit *f, const double *v, fit_estimate *e, double
     return status;
 }
 
+/* How well the slip that the path implies agrees with what the bead's marks showed: a law of friction may find the places
+ * and yet have the wrong slip. */
+static fst_status judge_slip(film_fit *f, const double *v, fst_fit *fit, fst_error *error)
+{
+    fit_path path;
+    fst_status status = find_path(f, v, &path, error);
+    double sum = 0.0, size = 0.0, off = 0.0;
+    fit->slip_misfit = NAN;
+    for (int i = 0; i < f->frames && status == FST_OK; ++i) {
+        if (!(f->slip_error[i] > 0.0) || !isfinite(creal(f->slip[i]) + cimag(f->slip[i])))
+            continue;
+        const double complex model = fit_path_slip_at(&path, nuisance(f, v, DRIVE), nuisance(f, v, TURN),
+                                                      nuisance(f, v, PHASE), f->t[i]);
+        const double miss = cabs((f->sense > 0 ? model : conj(model)) - f->slip[i]);
+        sum += 0.5 * pow(miss / f->slip_error[i], 2.0);
+        size += pow(cabs(f->slip[i]), 2.0);
+        off += miss * miss;
+        fit->slip_frames += 1;
+    }
+    if (status != FST_OK || fit->slip_frames == 0)
+        return status;
+    fit->slip_misfit = sqrt(sum / fit->slip_frames);
+    return fit_remark(fit, error,
+                      "slip, measured in %d frames and not fitted: the model's is %.3g standard deviations "
+                      "off, %.3g %% of it; "
+                      "where another friction law is nearer to 1, take that",
+                      fit->slip_frames, fit->slip_misfit, 100.0 * sqrt(off / size));
+}
+
 static fst_status report(film_fit *f, const fit_estimate *e, double left, int rejected, fst_fit *fit,
                          fst_error *error)
 {
@@ -436,7 +472,6 @@ static fst_status begin(film_fit *f, const fst_params *params, const fst_measure
                         const fst_fit_options *options, fst_error *error)
 {
     fst_params start = *params;
-    fst_fit rough;
     fst_fit_options roughly = *options;
     fst_point row;
     const double drive = isfinite(options->drive) ? options->drive : seen->drive_from_track_hz;
@@ -453,11 +488,7 @@ static fst_status begin(film_fit *f, const fst_params *params, const fst_measure
     fst_part part = {options->progress, MEASURED, ROUGHLY_FITTED, NULL};
     const fst_progress progress = {&part, fst_part_tell};
     roughly.progress = &progress;
-    roughly.curve_points = roughly.rivals = roughly.bootstrap = 0;
-    status = fst_fit_points(params, &points, &roughly, &rough, error);
-    if (status == FST_OK)
-        start = rough.params;
-    fst_fit_free(&rough);
+    status = fit_seek(params, &points, &roughly, &start, error);
     if (status == FST_INTERRUPTED || status == FST_UNAVAILABLE || status == FST_NO_MEMORY)
         return status;
     f->drive = fabs(drive);
@@ -514,9 +545,13 @@ fst_status fst_fit_track(const fst_params *params, fst_track *track, const fst_f
         status = estimate(&f, v, &e, &left, error);
     if (status == FST_OK)
         status = report(&f, &e, left, rejected, fit, error);
+    if (status == FST_OK)
+        status = judge_slip(&f, v, fit, error);
     free(f.t);
     free(f.z);
     free(f.weight);
+    free(f.slip);
+    free(f.slip_error);
     if (status != FST_OK)
         fst_fit_free(fit);
     return status;

@@ -300,6 +300,21 @@ static char *tell(const choice *c, const fst_track *track, int of_all)
     return fst_print_end(&printed);
 }
 
+/* How the bead turns in the last row; lengths are in the track's unit.  Only tables whose y points up have it. */
+static fst_status take_turning(const choice *c, const track_spot *spot, fst_track *track, fst_error *error)
+{
+    if (spot->turning == 0)
+        return FST_OK;
+    if (!track->turning && fst_track_add_turning(track, error) != FST_OK)
+        return FST_NO_MEMORY;
+    fst_turning *turning = &track->turning[track->rows - 1];
+    *turning = c->raw->turnings[spot->turning - 1];
+    turning->slip[0] *= c->scale;
+    turning->slip[1] *= c->scale;
+    turning->slip_error *= c->scale;
+    return FST_OK;
+}
+
 /* The frames that are asked for, into the track. */
 static fst_status take_frames(const choice *c, const track_spot *spots, size_t count, fst_track *track,
                               fst_error *error)
@@ -311,8 +326,10 @@ static fst_status take_frames(const choice *c, const track_spot *spots, size_t c
             continue;
         status = fst_track_append(track, (int64_t)spots[i].frame, spots[i].t, spots[i].x * c->scale,
                                   spots[i].y * (c->raw->y_down ? -c->scale : c->scale), error);
-        if (status == FST_OK)
-            track->doubts[track->rows - 1] = spots[i].doubts;
+        if (status != FST_OK)
+            break;
+        track->doubts[track->rows - 1] = spots[i].doubts;
+        status = take_turning(c, &spots[i], track, error);
     }
     if (status == FST_OK && track->rows < 2)
         status = fst_fail(error, FST_BAD_INPUT, from >= 0 ? "fst_track_options.from" : "fst_track_options.to",

@@ -16,6 +16,7 @@ void track_raw_begin(track_raw *raw, const char *format)
 void track_raw_free(track_raw *raw)
 {
     free(raw->spots);
+    free(raw->turnings);
     free(raw->names);
     *raw = (track_raw){0};
 }

@@ -21,6 +21,7 @@ typedef struct track_spot {
     double x, y;  /* NAN: lost */
     size_t line;  /* of the file; 0: unknown */
     int doubts;   /* of fst_track */
+    int turning;  /* which of the turnings is its, from 1; 0: none */
 } track_spot;
 
 /* How the comment of festoon's own tracks begins that has the relative error of the scale. */
@@ -31,6 +32,8 @@ enum { TRACK_NAME_SIZE = 64, TRACK_MOST_TRACKS = 65536 };
 typedef struct track_raw {
     track_spot *spots;
     size_t count;
+    fst_turning *turnings; /* in the file's unit of length */
+    int turned;
     char (*names)[TRACK_NAME_SIZE];
     int name_count;
     int last_name;        /* the name found last: spots of a track often stand together */

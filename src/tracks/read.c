@@ -162,7 +162,7 @@ static fst_status read_trajectory(const fst_text *text, size_t header, int varia
             status = track_raw_add(raw,
                                    (track_spot){track, NAN, table.columns[FST_COLUMN_t][i],
                                                 millimetres * table.columns[FST_COLUMN_x][i],
-                                                millimetres * table.columns[FST_COLUMN_y][i], 0, 0},
+                                                millimetres * table.columns[FST_COLUMN_y][i], 0, 0, 0},
                                    error);
     }
     fst_model_free(model);

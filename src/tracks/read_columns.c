@@ -11,10 +11,13 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/grow.h"
 #include "base/text.h"
 #include "tracks/read_formats.h"
 
-enum { FRAME, TIME, X, Y, NAME, DOUBTS, ROLES };
+/* The columns of a turning are those of fst_turning in its order (track.c writes them), or none is taken. */
+enum { FRAME, TIME, X, Y, NAME, DOUBTS, TURNING, NUMBERS = 11, ROLES = TURNING + NUMBERS };
+_Static_assert(sizeof(fst_turning) == NUMBERS * sizeof(double), "a turning has so many numbers");
 
 /* A format: the names of its columns, its unit of length where the head says none, and the way of its y. */
 typedef struct style {
@@ -26,7 +29,8 @@ typedef struct style {
 #define USUAL_NAMES                                                                                            \
     {                                                                                                          \
         "frame|frames|frame number|image", "t|time|timestamp", "x|pos x|position x|xpos",                      \
-            "y|pos y|position y|ypos", "track|particle|object|track id", "doubts"                              \
+            "y|pos y|position y|ypos", "track|particle|object|track id", "doubts", "nx", "ny", "nz",           \
+            "n_error", "wx", "wy", "wz", "w_error", "slip_x", "slip_y", "slip_error"                           \
     }
 
 static const style styles[] = {
@@ -89,6 +93,29 @@ static int is_of_units(reader *r)
     return 1;
 }
 
+/* How the bead turns, where the table and the row say it. */
+static fst_status take_turning(reader *r, track_spot *spot)
+{
+    double numbers[NUMBERS];
+    int known = 0;
+    for (int i = 0; i < NUMBERS; ++i) {
+        if (!r->columns[TURNING + i].place)
+            return FST_OK;
+        const fst_status status = fst_text_value(&r->table, &r->columns[TURNING + i], &numbers[i]);
+        if (status != FST_OK)
+            return status;
+        known += isfinite(numbers[i]);
+    }
+    if (known == 0)
+        return FST_OK;
+    if (!fst_grow(&r->raw->turnings, (size_t)r->raw->turned, sizeof *r->raw->turnings))
+        return fst_fail(r->table.error, FST_NO_MEMORY, "", "no memory for more than %d turnings",
+                        r->raw->turned);
+    memcpy(&r->raw->turnings[r->raw->turned], numbers, sizeof numbers);
+    spot->turning = ++r->raw->turned;
+    return FST_OK;
+}
+
 static fst_status take_row(reader *r)
 {
     track_spot spot = {.line = r->table.line};
@@ -108,6 +135,8 @@ static fst_status take_row(reader *r)
     if (status == FST_OK && !(isnan(doubts) || (doubts >= 0.0 && doubts < 1e9 && doubts == floor(doubts))))
         status = fst_text_fail_cell(&r->table, &r->columns[DOUBTS], NULL, "is not a whole number from 0 on");
     spot.doubts = isnan(doubts) ? 0 : (int)doubts;
+    if (status == FST_OK)
+        status = take_turning(r, &spot);
     if (status == FST_OK)
         status = track_raw_name(r->raw, name, &spot.track, r->table.error);
     return status == FST_OK ? track_raw_add(r->raw, spot, r->table.error) : status;
@@ -144,7 +173,7 @@ fst_status track_read_columns(const fst_text *text, size_t header, int variant, 
     int more = 1, units = r.style->spots;
     /* pandas writes an index called frame beside the column of this name. */
     for (int role = 0; role < ROLES; ++role)
-        r.columns[role] = (fst_text_column){.names = r.style->names[role],
+        r.columns[role] = (fst_text_column){.names = r.style->names[role] ? r.style->names[role] : "",
                                             .kind = FST_UNIT_NUMBER,
                                             .needed = role == X || role == Y,
                                             .repeats = role == FRAME};

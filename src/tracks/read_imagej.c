@@ -25,7 +25,7 @@ static fst_status take_point(const fst_text_table *table, int track, track_raw *
         if (status == FST_OK && isnan(values[k]))
             status = fst_text_fail_cell(table, &column, NULL, "is empty");
     }
-    const track_spot spot = {track, values[3], NAN, values[0], values[1], table->line, 0};
+    const track_spot spot = {track, values[3], NAN, values[0], values[1], table->line, 0, 0};
     return status == FST_OK ? track_raw_add(raw, spot, table->error) : status;
 }
 

@@ -54,6 +54,7 @@ static fst_status keep_spot(model *m, const fst_xml_event *element, fst_error *e
                              fst_xml_number(element, "POSITION_X"),
                              fst_xml_number(element, "POSITION_Y"),
                              element->line,
+                             0,
                              0};
     const double id = fst_xml_number(element, "ID");
     if (isnan(id) || isnan(spot.frame) || isnan(spot.x) || isnan(spot.y))
@@ -90,6 +91,7 @@ static fst_status take_detection(model *m, const fst_xml_event *element, fst_err
                              fst_xml_number(element, "x"),
                              fst_xml_number(element, "y"),
                              element->line,
+                             0,
                              0};
     if (isnan(spot.frame) || isnan(spot.x) || isnan(spot.y) || m->particles == 0)
         return fst_text_fail(m->path, spot.line, error,

@@ -12,6 +12,7 @@ static const char *const fit_keys[] = {"model.kappa", "friction.gamma"};
 
 typedef struct film {
     double t[SAMPLES * PERIODS + 1], x[SAMPLES * PERIODS + 1], y[SAMPLES * PERIODS + 1]; /* s, mm */
+    double slip[SAMPLES * PERIODS + 1][2]; /* V = v - R W x e, mm/s */
     int count;
     double time_unit;
 } film;
@@ -22,6 +23,9 @@ static inline fst_status keep(void *user, const fst_sample *sample, fst_error *e
     (void)error;
     if (f->count <= SAMPLES * PERIODS) {
         f->t[f->count] = sample->t * f->time_unit;
+        const double unit = 23.0 / f->time_unit, eps = 2.5 / 23.0;
+        f->slip[f->count][0] = unit * (sample->v_lab[0] - eps * sample->w_lab[1]);
+        f->slip[f->count][1] = unit * (sample->v_lab[1] + eps * sample->w_lab[0]);
         f->x[f->count] = 23.0 * sample->x;
         f->y[f->count++] = 23.0 * sample->y;
     }
