@@ -111,6 +111,14 @@ typedef struct value_option {
 enum { VALUE_TIME = -1 /* as cameras write it */, VALUE_WHOLE = -2, MOST_FRAMES = 1000000000 };
 fst_status read_values(const arguments *given, const value_option *rows, size_t count, fst_error *error);
 
+/* "0.123mm", "0.123 +- 0.001 mm" or "2px": the length of one unit of a track's file, with its error.  `unit` has to live as
+ * long as `how`. */
+fst_status read_track_scale(const char *text, fst_track_options *how, char unit[FST_LENGTH_UNIT_SIZE],
+                            fst_error *error);
+
+/* FST_BAD_INPUT where `written` (NULL: nothing) is the file `read`: it would be lost. */
+fst_status check_other_file(const char *option_name, const char *written, const char *read, fst_error *error);
+
 /* Whether a file's name has this ending, and more before it. */
 int ends_in(const char *path, const char *ending);
 

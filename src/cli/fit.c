@@ -22,7 +22,7 @@ static const option options[] = {
     {"fps", '\0', "F", "of a track: frames a second, instead of the file's clock"},
     {"from", '\0', "FRAME", "of a track: the first frame that is taken, by its own numbers"},
     {"to", '\0', "FRAME", "of a track: the last one"},
-    {"scale", '\0', "0.123mm", "of a track: the length of one unit of the file"},
+    {"scale", '\0', "L[+-E]", "of a track: the length of one unit of the file, as 0.123mm or 0.123+-0.001mm"},
     QUIET_OPTION,
     {NULL, '\0', NULL, NULL},
 };
@@ -197,6 +197,16 @@ static void print_fit(FILE *out, const fst_fit *fit)
 
 /* ------------------------------------------------------------------ doing it */
 
+/* Options of the other kind of data would be without effect. */
+static fst_status check_kind(const arguments *given, const char *const *others, const char *these,
+                             const char *data, fst_error *error)
+{
+    for (; *others; ++others)
+        if (option_value(given, *others))
+            return fail(error, FST_BAD_INPUT, "", "--%s belongs to %s; this is a %s", *others, these, data);
+    return FST_OK;
+}
+
 static fst_status fit_table(const arguments *given, const char *table, const fst_params *params, FILE *out,
                             fst_error *error)
 {
@@ -205,7 +215,10 @@ static fst_status fit_table(const arguments *given, const char *table, const fst
     fst_fit fit;
     fst_fit_options how = fst_default_fit_options();
     const char *figure = option_value(given, "output");
-    fst_status status = read_wishes(given, &wanted, &how, error);
+    static const char *const of_tracks[] = {"drive", "exposure", "fps", "from", "to", "scale", NULL};
+    fst_status status = check_kind(given, of_tracks, "tracks", "table", error);
+    if (status == FST_OK)
+        status = read_wishes(given, &wanted, &how, error);
     double bootstrap = 0.0;
     const value_option row = {"bootstrap", VALUE_WHOLE, &bootstrap, 10, 100000};
     if (status == FST_OK)
@@ -259,36 +272,54 @@ static fst_status read_exposure(const char *text, fst_fit_options *how, fst_erro
 }
 
 static fst_status read_track_wishes(const arguments *given, fst_fit_options *how, fst_track_options *file,
-                                    fst_error *error)
+                                    char unit[FST_LENGTH_UNIT_SIZE], fst_error *error)
 {
-    const char *exposure = option_value(given, "exposure");
+    const char *exposure = option_value(given, "exposure"), *scale = option_value(given, "scale");
     const value_option rows[] = {{"drive", FST_UNIT_FREQUENCY, &how->drive, 0, 0},
                                  {"fps", FST_UNIT_NUMBER, &file->fps, 0, 0},
                                  {"from", VALUE_WHOLE, &file->from, 0, MOST_FRAMES},
-                                 {"to", VALUE_WHOLE, &file->to, 0, MOST_FRAMES},
-                                 {"scale", FST_UNIT_LENGTH, &file->scale, 0, 0}};
-    const fst_status status = exposure ? read_exposure(exposure, how, error) : FST_OK;
+                                 {"to", VALUE_WHOLE, &file->to, 0, MOST_FRAMES}};
+    fst_status status = exposure ? read_exposure(exposure, how, error) : FST_OK;
+    if (status == FST_OK && scale)
+        status = read_track_scale(scale, file, unit, error);
     return status == FST_OK ? read_values(given, rows, sizeof rows / sizeof *rows, error) : status;
+}
+
+/* The track of a film of one bead: others would pull at it, and the model has one. */
+static fst_status read_one_bead(const char *path, const fst_track_options *how, fst_track *track,
+                                char **understood, fst_error *error)
+{
+    fst_track tracks[FST_TRACKED_BEADS];
+    int count;
+    const fst_status status = fst_tracks_read(path, how, tracks, &count, understood, error);
+    if (status != FST_OK)
+        return status;
+    *track = tracks[0];
+    for (int i = 1; i < count; ++i)
+        fst_track_free(&tracks[i]);
+    if (count == 1)
+        return FST_OK;
+    fst_track_free(track);
+    return fail(error, FST_BAD_INPUT, path, "the film has %d beads, which pull at each other: a fit is of one",
+                count);
 }
 
 static fst_status fit_film(const arguments *given, const fst_params *params, FILE *out, fst_error *error)
 {
+    static const char *const of_tables[] = {"output", "compare", "bootstrap", NULL};
     static wishes wanted;
     fst_track track = {0};
     fst_fit fit;
-    char *understood = NULL;
+    char *understood = NULL, unit[FST_LENGTH_UNIT_SIZE];
     fst_fit_options how = fst_default_fit_options();
     fst_track_options file = fst_default_track_options();
-    fst_status status = read_wishes(given, &wanted, &how, error);
-    for (int i = 0; i < given->option_count && status == FST_OK; ++i) {
-        const char *name = given->options[i].row->name;
-        if (strcmp(name, "output") == 0 || strcmp(name, "compare") == 0 || strcmp(name, "bootstrap") == 0)
-            status = fail(error, FST_BAD_INPUT, "", "--%s belongs to tables; this is a track", name);
-    }
+    fst_status status = check_kind(given, of_tables, "tables", "track", error);
     if (status == FST_OK)
-        status = read_track_wishes(given, &how, &file, error);
+        status = read_wishes(given, &wanted, &how, error);
     if (status == FST_OK)
-        status = fst_track_read(option_value(given, "track"), &file, &track, &understood, error);
+        status = read_track_wishes(given, &how, &file, unit, error);
+    if (status == FST_OK)
+        status = read_one_bead(option_value(given, "track"), &file, &track, &understood, error);
     if (status == FST_OK && understood)
         (void)fprintf(stderr, "%s\n", understood);
     progress_line line;

@@ -35,34 +35,6 @@ static fst_status read_unit(const char *name, const char *text, fst_unit unit, d
     return status;
 }
 
-static fst_status read_scale(const char *text, fst_track_options *how, char unit[FST_LENGTH_UNIT_SIZE],
-                             fst_error *error)
-{
-    char *end, plain[80];
-    const double number = strtod(text, &end);
-    if (end != text && strncmp(end, "+-", 2) == 0) { /* the error, and then the length without it */
-        const char *from = end + 2;
-        how->scale_error = strtod(from, &end) / number;
-        if (end == from || !(how->scale_error > 0.0 && how->scale_error < 1.0))
-            return fail(error, FST_BAD_INPUT, "--scale", "\"%.40s\": write it as 0.123+-0.001mm", text);
-        (void)snprintf(plain, sizeof plain, "%.17g %.40s", number, end);
-        return read_scale(plain, how, unit, error);
-    }
-    end += strspn(end, " ");
-    if (end != text && (strcmp(end, "px") == 0)) {
-        how->scale = number;
-        how->scale_unit = "px";
-        return FST_OK;
-    }
-    if (end == text || !*end)
-        return fail(error, FST_BAD_INPUT, "--scale", "\"%.40s\": a length with a unit was expected (px %s)",
-                    text, fst_unit_accepted(FST_UNIT_LENGTH));
-    const fst_status status = read_unit("--scale", text, FST_UNIT_LENGTH, &how->scale, error);
-    (void)snprintf(unit, FST_LENGTH_UNIT_SIZE, "%.7s", end);
-    how->scale_unit = unit;
-    return status;
-}
-
 static fst_status read_options(const arguments *given, fst_track_options *how, fst_measure_options *what,
                                char unit[FST_LENGTH_UNIT_SIZE], fst_error *error)
 {
@@ -77,7 +49,7 @@ static fst_status read_options(const arguments *given, fst_track_options *how, f
                                  {"exposure", VALUE_TIME, &what->exposure, 0, 0}};
     fst_status status = read_values(given, rows, sizeof rows / sizeof *rows, error);
     if (status == FST_OK && scale)
-        status = read_scale(scale, how, unit, error);
+        status = read_track_scale(scale, how, unit, error);
     return status;
 }
 
@@ -311,6 +283,9 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
                     "a scene is laid over the track in a figure: add --figure FIG.svg");
     if (option_value(given, "set") && !option_value(given, "compare"))
         return fail(error, FST_BAD_INPUT, "--set", "it belongs to the scene of --compare");
+    for (int i = 0; i < given->operand_count; ++i)
+        if (check_other_file("-o", to, given->operands[i], error) != FST_OK)
+            return FST_BAD_INPUT;
     job *j = calloc(1, sizeof *j);
     if (!j)
         return fail(error, FST_NO_MEMORY, "", "out of memory");

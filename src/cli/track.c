@@ -175,11 +175,11 @@ static void warn(const fst_film_track_report *r)
                       "exposure, more light and a plain plate help\n",
                       r->beads == 1 ? "the bead was" : "beads were", r->lost, r->frames);
     if (r->doubt_count > 0)
-        (void)fprintf(
-            stderr,
-            "festoon: warning: beads may have exchanged their names, as told above, first in frame %d; "
-            "a higher frame rate tells them apart\n",
-            r->doubts[0].frame);
+        (void)fprintf(stderr,
+                      "festoon: warning: beads may have exchanged their names, as column doubts tells, first "
+                      "in frame %d; "
+                      "a higher frame rate tells them apart\n",
+                      r->doubts[0].frame);
 }
 
 static fst_status track_film(const char *path, fst_film_track_options *film, fst_film_track_report *report,
@@ -264,12 +264,31 @@ static fst_status track_several(const arguments *given, fst_film_track_options *
             (void)snprintf(scale, sizeof scale, "%.5g", report.scale);
         (void)fprintf(out, "%8d %10.6g %6d %10.1f %12s  %s\n", report.frames, report.fps, report.lost,
                       report.diameter, scale, shown(to, text));
-        tell_written(to, "");
+        char told[64];
+        (void)snprintf(told, sizeof told, ": %d frames, %d lost", report.frames, report.lost);
+        tell_written(to, told);
         warn(&report);
+        if (film->turning > 0.0 && !(report.turned_share > 0.0))
+            (void)fprintf(stderr, "festoon: warning: no marks that turn with the bead could be followed\n");
     }
     if (failed != FST_OK)
         return fail(error, failed, "", "not all films could be tracked, as told above");
     return FST_OK;
+}
+
+static fst_status check_outputs(const arguments *given, const fst_film_track_options *film, const char *to,
+                                fst_error *error)
+{
+    fst_status status = FST_OK;
+    for (int i = 0; i < given->operand_count && status == FST_OK; ++i) {
+        const char *path = given->operands[i];
+        status = given->operand_count == 1 ? check_other_file("-o", to, path, error) : FST_OK;
+        if (status == FST_OK)
+            status = check_other_file("--overlay", film->overlay, path, error);
+        if (status == FST_OK)
+            status = check_other_file("--picture", film->picture, path, error);
+    }
+    return status;
 }
 
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
@@ -282,6 +301,8 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (!to)
         return fail(error, FST_BAD_INPUT, "", "say where the track goes: -o TRACK.csv");
     fst_status status = read_options(given, &film, error);
+    if (status == FST_OK)
+        status = check_outputs(given, &film, to, error);
     if (status == FST_OK && given->operand_count > 1)
         return track_several(given, &film, to, out, error);
     film.csv = to;

@@ -1,4 +1,5 @@
 /* values.c - values of options that several commands have: units, names of columns, numbers, times. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "cli/command.h"
@@ -104,5 +105,38 @@ fst_status read_values(const arguments *given, const value_option *rows, size_t 
         if (text)
             status = read_value(&rows[i], name, text, error);
     }
+    return status;
+}
+
+fst_status read_track_scale(const char *text, fst_track_options *how, char unit[FST_LENGTH_UNIT_SIZE],
+                            fst_error *error)
+{
+    char *end, plain[80];
+    const double number = strtod(text, &end);
+    end += strspn(end, " ");
+    if (end != text && strncmp(end, "+-", 2) == 0) { /* the error, and then the length without it */
+        const char *from = end + 2;
+        how->scale_error = strtod(from, &end) / number;
+        if (end == from || !(how->scale_error > 0.0 && how->scale_error < 1.0))
+            return fail(error, FST_BAD_INPUT, "--scale",
+                        "\"%.40s\": an error between zero and the length was expected, as in 0.123+-0.001mm",
+                        text);
+        (void)snprintf(plain, sizeof plain, "%.17g %.40s", number, end);
+        return read_track_scale(plain, how, unit, error);
+    }
+    end += strspn(end, " ");
+    if (end != text && (strcmp(end, "px") == 0)) {
+        how->scale = number;
+        how->scale_unit = "px";
+        return FST_OK;
+    }
+    if (end == text || !*end)
+        return fail(error, FST_BAD_INPUT, "--scale", "\"%.40s\": a length with a unit was expected (px %s)",
+                    text, fst_unit_accepted(FST_UNIT_LENGTH));
+    const fst_status status = fst_parse_value(text, FST_UNIT_LENGTH, &how->scale, error);
+    if (status != FST_OK)
+        (void)snprintf(error->where, sizeof error->where, "--scale");
+    (void)snprintf(unit, FST_LENGTH_UNIT_SIZE, "%.7s", end);
+    how->scale_unit = unit;
     return status;
 }

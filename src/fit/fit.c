@@ -13,6 +13,9 @@
 
 #define FIT_COOKIE 0x66697431u
 
+/* A model whose chi^2/dof is beyond the square of this does not fit: where its chi^2 rises means nothing, and takes long. */
+#define NO_FIT 3.0
+
 fst_fit_options fst_default_fit_options(void)
 {
     return (fst_fit_options){.cookie = FIT_COOKIE, .seed = 1, .drive = NAN, .exposure = NAN};
@@ -37,6 +40,8 @@ void fst_fit_free(fst_fit *fit)
 
 static fst_status say_interval(fst_fit *fit, const fst_fit_parameter *p, fst_error *error)
 {
+    if (fit->error_scale > NO_FIT)
+        return FST_OK;
     const int low = isnan(p->interval[0]), high = isnan(p->interval[1]);
     if (isnan(p->error))
         return fit_remark(
@@ -89,6 +94,8 @@ static fst_status report_parameter(fit_problem *p, const fit_estimate *e, int i,
     fit_report_value(p, e, i, fit->error_scale * fit_deviation(p, e, i), out);
     const double rise = fit->error_scale * fit->error_scale;
     double widest = 0.0;
+    if (fit->error_scale > NO_FIT)
+        return FST_OK;
     for (int side = -1; side <= 1; side += 2) {
         double end, far;
         fst_status status = fit_profile(p, e, i, side, rise, &end, better, u_better, error);
@@ -207,6 +214,11 @@ static fst_status report_fit(fit_problem *p, const fit_estimate *e, int too_many
                    "chi^2/dof = %.3g is too great for chance: the errors of the table are too small or the "
                    "model is not quite right; all errors were multiplied by %.3g",
                    e->chi2 / dof, fit->error_scale) != FST_OK)
+        return FST_NO_MEMORY;
+    if (fit->error_scale > NO_FIT && fit_remark(fit, error,
+                                                "the model does not fit these numbers, so no intervals were "
+                                                "sought: look at the figure, at the scale, the "
+                                                "law of friction and the errors of the table") != FST_OK)
         return FST_NO_MEMORY;
     if (fit->dof <= 0 &&
         fit_remark(fit, error,

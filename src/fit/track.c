@@ -404,6 +404,40 @@ static fst_status estimate(film_fit *f, const double *v, fit_estimate *e, double
     return status;
 }
 
+/* How places scatter from frame to frame, by fourth differences, of which no smooth path is left; m. */
+static double jitter_of(const film_fit *f)
+{
+    double *sizes = malloc((size_t)f->frames * sizeof *sizes);
+    size_t count = 0;
+    for (int i = 4; i < f->frames && sizes; ++i) {
+        const double complex *z = f->z + i;
+        if (f->t[i] - f->t[i - 4] < 4.5 * (f->t[f->frames - 1] - f->t[0]) / (f->frames - 1)) /* no gap */
+            sizes[count++] = cabs(z[0] - 4.0 * z[-1] + 6.0 * z[-2] - 4.0 * z[-3] + z[-4]);
+    }
+    const double middle = count > 16 ? fst_median(sizes, count) : NAN;
+    free(sizes);
+    return middle / (1.1774 * sqrt(70.0)); /* the median of a Rayleigh distribution; the binomials' squares */
+}
+
+/* What a person should doubt: what measure said of the track, and places that are farther from the path than their noise. */
+static fst_status doubt(const film_fit *f, const fst_measurement *seen, double left, fst_fit *fit,
+                        fst_error *error)
+{
+    fst_status status = FST_OK;
+    const double jitter = jitter_of(f);
+    for (int i = 0; i < seen->warning_count && status == FST_OK; ++i)
+        status = fit_remark(fit, error, "%s", seen->warnings[i]);
+    if (status == FST_OK && left > 4.0 * jitter)
+        status = fit_remark(fit, error,
+                            "places lie %.3g times as far from the model's path as they scatter from frame to "
+                            "frame: the path is "
+                            "another one, and the errors do not tell by how much the parameters are wrong; "
+                            "look at the scale, the "
+                            "drive, the exposure and the friction law",
+                            left / jitter);
+    return status;
+}
+
 /* How well the slip that the path implies agrees with what the bead's marks showed: a law of friction may find the places
  * and yet have the wrong slip. */
 static fst_status judge_slip(film_fit *f, const double *v, fst_fit *fit, fst_error *error)
@@ -547,6 +581,8 @@ fst_status fst_fit_track(const fst_params *params, fst_track *track, const fst_f
         status = report(&f, &e, left, rejected, fit, error);
     if (status == FST_OK)
         status = judge_slip(&f, v, fit, error);
+    if (status == FST_OK)
+        status = doubt(&f, &seen, left, fit, error);
     free(f.t);
     free(f.z);
     free(f.weight);

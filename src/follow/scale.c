@@ -1,7 +1,7 @@
 /* scale.c - the plane of each kind of scale, and its error.
  *
  *   bead          the error of its diameter
- *   two or four   a pixel at each point, along the picture's columns and rows
+ *   two or four   a pixel at each point, along the picture's columns and rows; of two, what a tilt of the camera may do
  *   plate         how far its edge is from an ellipse: neighbours on the edge err alike, so it counts whole; and the
  *                 perspective, as far as the bead's widths do not show it
  *
@@ -15,6 +15,7 @@
 #include "base/error.h"
 
 #define POINT_ERROR 1.0 /* pixels: nobody points better */
+#define USUAL_TILT 0.09 /* rad, of a camera that looks straight down: 5 degrees */
 #define EDGE_ERROR 0.05 /* pixels, of the edge's ellipse, besides its scatter */
 
 static int points_of(const follow_scale *scale)
@@ -43,6 +44,19 @@ static fst_status plane_of_points(const follow_scale *scale, const follow_view *
     *plane = follow_plane_even(scale->length[0] / hypot(p[1][0] - p[0][0], p[1][1] - p[0][1]),
                                view->still->height - 1.0);
     return FST_OK;
+}
+
+/* Two points do not show how the camera is tilted.  Where they lie beside the path, the plate is nearer to the camera at one
+ * of both by as much, and one pixel shorter. */
+static double error_of_tilt(const follow_scale *scale, const follow_view *view, double step)
+{
+    const double(*p)[2] = scale->points;
+    const double beside =
+        step * hypot(0.5 * (p[0][0] + p[1][0]) - view->middle[0], 0.5 * (p[0][1] + p[1][1]) - view->middle[1]);
+    const double nearest = step * FOLLOW_SHORTEST_LENS * hypot(view->still->width, view->still->height);
+    const double distance =
+        isnan(view->distance) ? sqrt(3.0) * nearest : 1e3 * view->distance; /* as error_of_height() */
+    return scale->kind == FOLLOW_SCALE_TWO ? USUAL_TILT * beside / distance : 0.0;
 }
 
 /* By how much the step in the middle changes, relatively, where each point is wrong by a pixel. */
@@ -135,7 +149,7 @@ fst_status follow_scale_apply(const follow_scale *scale, const follow_view *view
     const double even = follow_plane_step(plane, view->middle[0], view->middle[1]);
     *step = follow_plane_least_step(plane, view->middle[0], view->middle[1]);
     if (points_of(scale) > 0)
-        *error_share = error_of_points(scale, view, *step);
+        *error_share = hypot(error_of_points(scale, view, *step), error_of_tilt(scale, view, *step));
     if (scale->kind != FOLLOW_SCALE_BEAD && isnan(view->distance))
         *error_share = hypot(*error_share, error_of_height(view));
     else if (scale->kind != FOLLOW_SCALE_BEAD)

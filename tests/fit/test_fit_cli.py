@@ -133,6 +133,18 @@ class Fit(unittest.TestCase):
             self.refused([path, *free], *says)
         self.refused(["no-such-file.csv", *free], "no-such-file.csv")
 
+    def test_options_of_tracks(self):
+        """They would be without effect on a table."""
+        for words in (("--exposure", "2ms"), ("--scale", "3mm"), ("--drive", "5Hz"), ("--fps", "240"), ("--from", "3"), ("--to", "5")):
+            self.refused([self.table, "--free", "model.kappa", *words], f"{words[0]} belongs to tracks")
+
+    def test_a_film_of_two_beads(self):
+        rows = [f"{frame},{frame / 240:.6f},{x},{frame % 7},{name},0" for frame in range(40) for name, x in ((1, frame), (2, -frame))]
+        path = os.path.join(self.folder.name, "two.csv")
+        with open(path, "w", encoding="utf-8") as text:
+            text.write("\n".join(["frame,t [s],x [mm],y [mm],track,doubts", *rows]) + "\n")
+        self.refused(["--track", path, "--free", "model.kappa"], "the film has 2 beads")
+
     def test_bad_wishes(self):
         self.refused([self.table], "--free model.kappa,friction.gamma")
         self.refused([], "festoon measure")

@@ -97,6 +97,27 @@ static void test_slip(void **state)
     assert_true(fabs(misfit[READ] - misfit[AS_IT_IS]) < 1e-3);
 }
 
+/* A scale that is wrong by a tenth gives a path that the model does not have: the places are farther from it than they
+ * scatter, and this is said; of a right one it is not. */
+static void test_doubt(void **state)
+{
+    for (int wrong = 0; wrong < 2; ++wrong) {
+        fst_track track;
+        fst_fit fit;
+        fst_fit_options options = fst_default_fit_options();
+        make_track(*state, 0, 0.0, 0, 0.1, &track);
+        for (size_t i = 0; i < track.rows && wrong; ++i) {
+            track.x[i] *= 1.1;
+            track.y[i] *= 1.1;
+        }
+        options.drive = 11.3;
+        must_fit(&track, &options, &fit);
+        assert_int_equal(strstr(fit.remarks, "from the model's path as they scatter") != NULL, wrong);
+        fst_fit_free(&fit);
+        fst_track_free(&track);
+    }
+}
+
 static void test_refusals(void **state)
 {
     const fst_params start = fst_default_params();
@@ -128,6 +149,7 @@ int main(void)
         cmocka_unit_test_prestate(test_plain_film_with_lost_and_wild_frames, &made),
         cmocka_unit_test_prestate(test_a_film_that_begins_too_early, &made),
         cmocka_unit_test_prestate(test_slip, &made),
+        cmocka_unit_test_prestate(test_doubt, &made),
         cmocka_unit_test_prestate(test_refusals, &made),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

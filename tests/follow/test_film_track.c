@@ -381,9 +381,54 @@ static void points_that_are_marked_by_hand(void **state)
         assert_in_range(within, TRIALS * 61 / 100, TRIALS * 78 / 100);
         /* Of an unknown distance the bead's height adds what it may be: 1.4 % is 8 pixels at 18 cm of 90 mm. */
         view.distance = NAN;
+        view.middle[0] = 0.5 * (exact.points[0][0] + exact.points[1][0]); /* beside nothing: no tilt matters */
+        view.middle[1] = 0.5 * (exact.points[0][1] + exact.points[1][1]);
+        assert_int_equal(follow_scale_apply(&exact,
+                                            &(follow_view){.path = "film",
+                                                           .still = &still,
+                                                           .look = &look,
+                                                           .middle = {view.middle[0], view.middle[1]},
+                                                           .distance = 1.0},
+                                            NULL, &plane, &step, &share, &error),
+                         FST_OK);
         double more;
         assert_int_equal(follow_scale_apply(&exact, &view, NULL, &plane, &step, &more, &error), FST_OK);
         assert_true(more > hypot(share, 0.015) && more < hypot(share, 0.03));
+    }
+}
+
+/* A camera that looks down tilts by some degrees, and two points beside the path do not show it: the step in the middle of
+ * the path is wrong by what the plate is nearer there. */
+static void points_beside_the_path(void **state)
+{
+    (void)state;
+    enum { TRIALS = 400 };
+    const follow_still still = {.width = WIDTH, .height = HEIGHT, .level = level};
+    const follow_look look = {.diameter = 8.0};
+    const double distance = 0.18, usual = 0.09; /* m; rad */
+    uint64_t chance = 9;
+    for (int far = 0; far < 2; ++far) {
+        const follow_view view = {
+            .path = "film", .still = &still, .look = &look, .middle = {80.0, 60.0}, .distance = distance};
+        const double beside = far ? 45.0 : 1.0, step = 0.5; /* mm; mm a pixel in the middle */
+        int within = 0;
+        double share = NAN;
+        for (int k = 0; k < TRIALS; ++k) {
+            follow_scale scale = {.kind = FOLLOW_SCALE_TWO, .length = {60.0, 60.0}};
+            follow_plane plane;
+            fst_error error;
+            double found;
+            const double slope = usual * normal(&chance), nearer = 1.0 + slope * beside / (1e3 * distance);
+            for (int i = 0; i < 2; ++i) {
+                scale.points[i][0] = 80.0 + (i ? 30.0 : -30.0) / step / nearer + normal(&chance);
+                scale.points[i][1] = 60.0 + beside / step / nearer + normal(&chance);
+            }
+            assert_int_equal(follow_scale_apply(&scale, &view, NULL, &plane, &found, &share, &error), FST_OK);
+            const double height = 0.5 * look.diameter * step / (1e3 * distance); /* of the bead's centre */
+            within += fabs(found / (step * (1.0 - height)) - 1.0) < share;
+        }
+        print_message("%g mm beside: %d of %d within the error, of %.2g\n", beside, within, TRIALS, share);
+        assert_in_range(within, TRIALS * 61 / 100, TRIALS * 76 / 100);
     }
 }
 
@@ -395,6 +440,7 @@ int main(void)
         cmocka_unit_test(plate_with_perspective), cmocka_unit_test(cover_of_a_disc),
         cmocka_unit_test(spots_at_the_edge),      cmocka_unit_test(edge_of_a_plate),
         cmocka_unit_test(a_ring_on_the_plate),    cmocka_unit_test(points_that_are_marked_by_hand),
+        cmocka_unit_test(points_beside_the_path),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -174,6 +174,18 @@ class Track(films.OnFilms):
             self.assertEqual((done.returncode, done.stdout), (2, ""))
             self.assertIn(wanted, done.stderr)
 
+    def test_a_film_is_not_overwritten(self):
+        """By no output, also under another name."""
+        film = self.folder / "kept.mp4"
+        shutil.copy(self.folder / "a.mp4", film)
+        (self.folder / "link.mp4").symlink_to(film)
+        for options in (["-o", film], ["-o", self.folder / "link.mp4"], ["-o", self.folder / "o.csv", "--overlay", film],
+                        ["-o", self.folder / "o.csv", "--picture", film]):
+            done = run("track", film, *options)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn("is read, and would be lost", done.stderr)
+        self.assertEqual(film.read_bytes(), (self.folder / "a.mp4").read_bytes())
+
     def test_no_bead(self):
         ffmpeg("-f", "lavfi", "-i", "color=gray:s=160x120:d=1,noise=alls=8", self.folder / "blank.mp4")
         self.refused(self.folder / "blank.mp4", "no bead was found|gray levels")

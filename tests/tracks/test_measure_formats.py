@@ -200,6 +200,14 @@ class BadFiles(Measure):
             with self.subTest(options=options):
                 self.assertIn(words, self.refused(good, *options))
 
+    def test_a_track_is_not_overwritten(self):
+        path = self.write(tracks.own(self.ROWS))
+        done = subprocess.run([FESTOON, "measure", path, "-o", path], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("is read, and would be lost", done.stderr)
+        with open(path, encoding="utf-8") as text:
+            self.assertEqual(text.read(), tracks.own(self.ROWS))
+
     def test_missing(self):
         done = subprocess.run([FESTOON, "measure"], capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stdout), (2, ""))
