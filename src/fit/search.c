@@ -217,6 +217,6 @@ fst_status fit_seek(const fst_params *params, const fst_points *points, const fs
     if (status == FST_OK)
         (void)fit_space_params(&p.space, u, found);
     fit_problem_free(&p);
-    fst_fit_free(&unsaid);
+    free(unsaid.remarks);
     return status;
 }

@@ -188,17 +188,29 @@ static const piece *nearest_piece(const pieces *p, int quantity, double x, doubl
     return best;
 }
 
+/* Sums over lengths that one scale makes wrong alike, by s of its errors: chi^2 is least over s, as a fit has it. */
+typedef struct scaled {
+    double product, square;
+} scaled;
+
 /* The part of one measured number in chi^2: the error of the frequency counts by the curve's slope. */
-static double part_of_chi2(const piece *at, const fst_point *point, int quantity)
+static double part_of_chi2(const piece *at, const fst_point *point, int quantity, scaled *by_scale)
 {
     const double slope = (at->y[1] - at->y[0]) / (at->x[1] - at->x[0]);
     const double y = at->y[0] + slope * (point->frequency - at->x[0]);
     const double along = isfinite(point->frequency_error) ? slope * point->frequency_error : 0.0;
     const double off = point->value[quantity] - y, error = point->error[quantity];
-    return off * off / (error * error + along * along);
+    const double variance = error * error + along * along;
+    if (point->scale_error > 0.0 && fst_measured_unit((fst_measured)quantity) == FST_UNIT_LENGTH) {
+        const double step = point->scale_error * point->value[quantity];
+        by_scale->product += off * step / variance;
+        by_scale->square += step * step / variance;
+    }
+    return off * off / variance;
 }
 
-static void add_chi2(const pieces *p, const fst_points *points, int quantity, fst_points_fit *fit)
+static void add_chi2(const pieces *p, const fst_points *points, int quantity, scaled *by_scale,
+                     fst_points_fit *fit)
 {
     for (size_t i = 0; i < points->count; ++i) {
         const fst_point *point = &points->rows[i];
@@ -208,7 +220,7 @@ static void add_chi2(const pieces *p, const fst_points *points, int quantity, fs
         ++fit->all;
         if (at) {
             ++fit->counted;
-            fit->chi2 += part_of_chi2(at, point, quantity);
+            fit->chi2 += part_of_chi2(at, point, quantity, by_scale);
         }
     }
 }
@@ -335,6 +347,7 @@ fst_status fst_figure_points(const char *results, const char *points_path, const
     pieces p = {.room = 0};
     fst_points points = {0};
     fst_points_fit found = {0.0, 0, 0};
+    scaled by_scale = {0.0, 0.0};
     int is_sweep = 0;
     fst_status status = fst_points_read(points_path, &points, error);
     if (status == FST_OK)
@@ -342,7 +355,8 @@ fst_status fst_figure_points(const char *results, const char *points_path, const
     if (status == FST_OK)
         status = is_sweep ? take_sweep(results, &p, error) : take_branch(results, &p, error);
     for (int q = 0; q < FST_MEASURED_COUNT && status == FST_OK; ++q)
-        add_chi2(&p, &points, q, &found);
+        add_chi2(&p, &points, q, &by_scale, &found);
+    found.chi2 -= by_scale.product * by_scale.product / (1.0 + by_scale.square);
     if (status == FST_OK && found.all == 0)
         status = fst_fail(error, FST_BAD_INPUT, points_path, "this table has no measured number");
     if (status == FST_OK)

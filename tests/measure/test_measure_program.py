@@ -129,6 +129,15 @@ class Points(Program):
         self.assertAlmostEqual(float(chi2), 0 + 1 + 4 + 3, delta=1e-4)
         self.assertEqual(counted, "6")
         self.assertIn("(7 in the table)", said)
+        # A scale that makes all lengths wrong alike: chi^2 is the least over it, found here by trying.
+        lines = ["frequency [Hz],mean_r [mm],mean_r_error [mm],scale_error"]
+        lengths = [23 * row["mean_r"] for row in rows]
+        lines += [f"{15 + 0.5 * k!r},{1.03 * length!r},0.1,0.02" for k, length in enumerate(lengths)]
+        scaled = self.write("scaled.csv", "\n".join(lines) + "\n")
+        said = self.festoon("plot", base, "--points", scaled, "-o", self.path("fig.svg")).stderr
+        least = min(s * s + sum(((0.03 - s * 0.02 * 1.03) * length / 0.1) ** 2 for length in lengths)
+                    for s in (1e-4 * k for k in range(20000)))
+        self.assertAlmostEqual(float(re.search(r"chi\^2 = ([\d.]+) of 3", said)[1]), least, delta=1e-4)
         other = self.path("other.db")
         self.festoon("sweep", "--over", "friction.gamma=300:310:2", "--set", "run.periods=6", "--set", "run.discard=2",
                      "-o", other)
