@@ -9,7 +9,7 @@ import numpy as np
 
 from ._errors import BadInput
 from ._given import as_file, is_path
-from ._native import Watch, call, ffi, lib, options_of, owned_array, path_bytes, take_text, text_of
+from ._native import Watch, call, dtype_of, ffi, lib, options_of, owned_array, path_bytes, take_text, text_of
 from ._pickled import Told, image_of, struct_of
 from ._progress import Progress
 from ._quantities import quantity
@@ -28,6 +28,8 @@ def _struct_of(columns: Mapping[str, Any], length_unit: str, fps: float, steady:
     made = ffi.new("fst_track *")
     for name, kind in COLUMNS.items():
         setattr(made, name, ffi.from_buffer(f"{kind}[]", columns[name]))
+    if "turning" in columns:
+        made.turning = ffi.from_buffer("fst_turning[]", columns["turning"])
     made.rows = made.capacity = len(columns["frame"])
     made.length_unit, made.fps, made.steady = length_unit.encode(), fps, steady
     made.scale_error = scale_error
@@ -80,7 +82,7 @@ class Track:
         made.length_unit = text_of(track.length_unit)
         return made
 
-    def _column(self, name: str, dtype: str, writable: bool = False) -> Any:
+    def _column(self, name: str, dtype: Any, writable: bool = False) -> Any:
         return owned_array(getattr(self._track, name), self._track.rows, dtype, self._track, writable)
 
     @property
@@ -114,6 +116,12 @@ class Track:
         return self._column("doubts", "i4")
 
     @property
+    def turning(self) -> Any:
+        """How the bead turns: rows of n [1], n_error [rad], w and w_error [rad/s], slip and slip_error [`length_unit`/s], NaN
+        where unknown; None: it was not looked at."""
+        return self._column("turning", dtype_of("fst_turning")) if self._track.turning else None
+
+    @property
     def fps(self) -> float:
         """Frames a second [Hz]."""
         return float(self._track.fps)
@@ -127,7 +135,8 @@ class Track:
         return int(self._track.rows)
 
     def _columns(self) -> Dict[str, Any]:
-        return {name: getattr(self, name).copy() for name in COLUMNS}
+        names = [*COLUMNS, "turning"] if self._track.turning else COLUMNS
+        return {name: getattr(self, name).copy() for name in names}
 
     def _clock(self) -> Tuple[str, float, bool, float]:
         return self.length_unit, self.fps, bool(self._track.steady), self.scale_error
@@ -150,7 +159,11 @@ class Track:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Track):
             return NotImplemented
-        facts = [(t.length_unit, t.scale_error, t.understood, t.report, len(t)) for t in (self, other)]
+        facts = [(t.length_unit, t.scale_error, t.understood, t.report, len(t), t.turning is None) for t in (self, other)]
+        if facts[0] == facts[1] and self.turning is not None:
+            numbers = [t.turning.view("f8") for t in (self, other)]
+            if not np.array_equal(*numbers, equal_nan=True):
+                return False
         return facts[0] == facts[1] and all(
             np.array_equal(getattr(self, name), getattr(other, name), equal_nan=name in ("t", "x", "y"))
             for name in COLUMNS

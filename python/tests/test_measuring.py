@@ -1,6 +1,7 @@
 """Tracks, what is measured of them, and fits."""
 
 import math
+import pickle
 import subprocess
 
 import numpy as np
@@ -33,6 +34,31 @@ def test_measure(program, bead, tmp_path):
     assert (tmp_path / "points.csv").read_bytes() == (tmp_path / "theirs.csv").read_bytes()
     with pytest.raises(fs.BadInput, match="scale"):
         fs.save_points(tmp_path / "points.csv", [fs.measure(track.with_name("px.csv"))])
+
+
+def test_turning(program, bead, tmp_path):
+    """What a track has of the bead's turning is read, copied, and judged by a fit, as the program does."""
+    lab = bead.run(periods=100, discard=60, trajectory=True, fps=240, sample_from=60).trajectory.lab
+    names = "nx,ny,nz,n_error [rad],wx [rad/s],wy [rad/s],wz [rad/s],w_error [rad/s],slip_x [mm/s],slip_y [mm/s],slip_error [mm/s]"
+    numbers = [0.6, 0.0, 0.8, 0.01, 1.0, 2.0, 3.0, 0.5, 100.0, -50.0, 200.0]
+    noise = np.random.default_rng(1).normal(scale=0.05, size=(2, len(lab.t)))
+    lines = [f"frame,t [s],x [mm],y [mm],{names}"]
+    for i, (t, x, y) in enumerate(zip(lab.t, lab.x + noise[0], lab.y + noise[1])):
+        known = numbers if i % 5 else [""] * 11
+        lines.append(",".join(map(str, [i, t, x, y, *known])))
+    path = tmp_path / "turning.csv"
+    path.write_text("\n".join(lines) + "\n")
+    track = fs.read_track(path)
+    known = track.turning[np.arange(len(track)) % 5 > 0]
+    assert np.isnan(track.turning["slip"][0]).all() and (known["slip"] == [100.0, -50.0]).all()
+    assert (known["n"] == [0.6, 0, 0.8]).all() and (known["w"] == [1, 2, 3]).all() and (known["slip_error"] == 200).all()
+    again = pickle.loads(pickle.dumps(track))
+    assert again == track and np.array_equal(again.turning["w"], track.turning["w"], equal_nan=True)
+    assert fs.read_track(path, scale="2mm").turning["slip"][1].tolist() == [200.0, -100.0]
+    assert fs.Track({"t": [0, 1], "x": [0, 1], "y": [0, 1]}, unit="mm").turning is None
+    fit = fs.fit(track=track, free=["kappa", "friction.gamma"], drive="10.7 Hz").to_dict()
+    theirs = ask(program, "fit", "--track", path, "--free", "model.kappa,friction.gamma", "--drive", "10.7Hz", "--json")
+    assert fit["slip_frames"] == theirs["slip_frames"] == len(known) and fit["slip_misfit"] == theirs["slip_misfit"] > 0
 
 
 def test_fit(program, tmp_path):
