@@ -161,8 +161,8 @@ class Track:
             return NotImplemented
         facts = [(t.length_unit, t.scale_error, t.understood, t.report, len(t), t.turning is None) for t in (self, other)]
         if facts[0] == facts[1] and self.turning is not None:
-            numbers = [t.turning.view("f8") for t in (self, other)]
-            if not np.array_equal(*numbers, equal_nan=True):
+            mine, theirs = (track.turning.view("f8") for track in (self, other))
+            if not np.array_equal(mine, theirs, equal_nan=True):
                 return False
         return facts[0] == facts[1] and all(
             np.array_equal(getattr(self, name), getattr(other, name), equal_nan=name in ("t", "x", "y"))
