@@ -73,7 +73,7 @@ def test_source_distribution_editable_and_wheel(venv, tmp_path):
     assert not left
 
 
-@pytest.mark.skipif(pathlib.Path(os.environ.get("BUILD_DIR", "")) != SOURCE / "build", reason="built elsewhere")
+@pytest.mark.skipif(pathlib.Path(os.environ.get("BUILD_DIR", "")) != SOURCE / "build", reason="pip looks for a finished build in build alone")
 def test_what_make_has_built_is_not_built_again(venv, tmp_path):
     """Where `make` has built these sources pip only packs them."""
     said = quiet(str(venv), *PIP, "-v", "wheel", "--no-index", "--no-deps", "-w", str(tmp_path), str(SOURCE))

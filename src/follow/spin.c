@@ -27,11 +27,13 @@ enum {
     PLACES = ORDERS + 1
 };
 
-#define MOST_ERROR                                                                                             \
-    0.15               /* rad: a rotation that is less sure has no number, nor what a frame's time does to it */
-#define MOST_CHI2 16.3 /* of three degrees of freedom, one in a thousand: a rotation there is wrong */
-#define MEDIAN_CHI                                                                                             \
-    1.08 /* mean over median of chi^2 per degree of freedom, for the nine that seven frames leave */
+/* A rotation that is less sure than this (rad) has no number, and W has none that turns the bead by as much less surely in the
+ * time of a frame. */
+#define MOST_ERROR 0.15
+/* Chi^2 of three degrees of freedom exceeds this once in a thousand: a rotation in such a window is wrong. */
+#define MOST_CHI2 16.3
+/* The mean of chi^2 of nine degrees of freedom, which nine frames leave, over its median. */
+#define MEDIAN_CHI 1.08
 
 /* A frame of a window, and what of its rotation the fit expects. */
 typedef struct near_frame {
@@ -46,7 +48,7 @@ typedef struct window {
     near_frame frames[MOST];
     int count;
     double turn[3][3];       /* in the middle */
-    double rates[ORDERS][3]; /* W and its first two derivatives, in rad and usual steps */
+    double rates[ORDERS][3]; /* W and its derivatives, in rad and usual steps */
     double covariance[UNKNOWN * UNKNOWN];
     double chi2;
 } window;
@@ -241,8 +243,9 @@ static double usual_step(const follow_turning *t, double *room)
     return fst_median(room, (size_t)(t->count - 1));
 }
 
-/* By how much rotations are off smooth ones, over what was expected, and the error of a place, mm.  Windows are wider than
- * those that W comes from: neighbours are off together, and W may bend more than a polynomial does. */
+/* By how much rotations are off smooth ones, over what was expected, and the error of a place, mm.  These windows
+ * are wider than those from which W follows: errors of neighbouring frames are alike, so a narrow window would not show
+ * them, nor that W changes faster than its polynomial. */
 static void scatter(const follow_turning *t, double usual, double *room, double *widen, double *place)
 {
     double off[2] = {0.0, 0.0}, unused[2] = {0.0, 0.0};

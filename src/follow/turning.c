@@ -241,9 +241,10 @@ fst_status follow_turning_find(follow_turning *turning, const fst_progress *prog
         if (status == FST_OK)
             status = improve_all(t, progress, room, explained, error);
     }
-    if (*explained < LEAST_EXPLAINED)
+    const int is_found = *explained >= LEAST_EXPLAINED;
+    if (!is_found)
         *explained = 0.0;
-    for (int i = 0; i<t->count && * explained> 0.0; ++i)
+    for (int i = 0; i < t->count && is_found; ++i)
         follow_known(t, &t->turns[i]);
     free(room);
     return status;

@@ -134,25 +134,31 @@ static double paint(const double point[3], int half)
     return n > 0.0 || fst_dot(point, spot, 3) > 0.93 ? 0.0 : 1.0;
 }
 
+/* Show the whole surface with its marks: a painted half, or dots. */
+static void paint_sphere(follow_sphere *sphere, int half)
+{
+    uint64_t seed = 8;
+    for (int k = 0; k < 60000; ++k) {
+        double point[3];
+        for (int i = 0; i < 3; ++i)
+            point[i] = normal(&seed);
+        const double length = sqrt(fst_dot(point, point, 3));
+        for (int i = 0; i < 3; ++i)
+            point[i] /= length;
+        follow_sphere_add(sphere, point, paint(point, half), 1.0);
+    }
+}
+
 static void axes_of_marks(void **state)
 {
     (void)state;
     follow_sphere sphere;
     assert_true(follow_sphere_begin(&sphere));
     for (int half = 0; half < 2; ++half) {
-        uint64_t seed = 8;
         double axis[3] = {0.0, 0.0, 0.0};
         follow_sphere_clear(&sphere);
         assert_false(follow_sphere_axis(&sphere, axis));
-        for (int k = 0; k < 60000; ++k) {
-            double point[3];
-            for (int i = 0; i < 3; ++i)
-                point[i] = normal(&seed);
-            const double length = sqrt(fst_dot(point, point, 3));
-            for (int i = 0; i < 3; ++i)
-                point[i] /= length;
-            follow_sphere_add(&sphere, point, paint(point, half), 1.0);
-        }
+        paint_sphere(&sphere, half);
         assert_true(follow_sphere_axis(&sphere, axis));
         CHECK_CLOSE(fst_dot(axis, (const double[3]){0.36, 0.48, 0.8}, 3), 1.0, half ? 1e-3 : 5e-4);
         /* The gradient is that of the value. */
@@ -230,21 +236,6 @@ static void make_track(fst_track *track)
         assert_int_equal(fst_track_append(track, i, STEP * i, 0.0, 0.0, &error), FST_OK);
 }
 
-/* The surface of the sphere, so that n is that of the marks. */
-static void show_marks(follow_turning *t)
-{
-    uint64_t seed = 4;
-    for (int k = 0; k < 60000; ++k) {
-        double point[3];
-        for (int i = 0; i < 3; ++i)
-            point[i] = normal(&seed);
-        const double length = sqrt(fst_dot(point, point, 3));
-        for (int i = 0; i < 3; ++i)
-            point[i] /= length;
-        follow_sphere_add(&t->sphere, point, paint(point, 1), 1.0);
-    }
-}
-
 /* Rotations with known errors, and places with others: W and slip are right, as often as their errors say. */
 static void spins(void **state)
 {
@@ -254,7 +245,7 @@ static void spins(void **state)
     fst_track track;
     fst_error error;
     begin(&t);
-    show_marks(&t);
+    paint_sphere(&t.sphere, 1);
     double first[3][3];
     memcpy(first, t.turns[70].pose.turn, sizeof first);
     const double north[3] = {0.36, 0.48, 0.8};

@@ -129,7 +129,7 @@ class Formats(Measure):
             self.assertAlmostEqual(found["fps"], 120, delta=0.01)
 
     def test_a_gap_counts_its_frames(self):
-        """Rows that are missing are lost frames, as those whose cells are empty, with a clock or without."""
+        """A frame without a row counts as lost, as one whose cells are empty does, with a clock or without."""
         lines = tracks.own(self.ROWS).splitlines()
         for gap in (1, 2, 7):
             for clock in (True, False):
