@@ -94,6 +94,68 @@ static void test_errors_cover(void **state)
     free(exact.rows);
 }
 
+/* The least chi^2 where gamma is held. */
+static double held(const fst_points *points, double gamma)
+{
+    static const char *const kappa[] = {"model.kappa"};
+    fst_params start = fst_default_params();
+    fst_fit_options options = wishes(kappa, 1);
+    fst_fit fit;
+    fst_error error;
+    start.model_kappa *= pow(start.friction_gamma / gamma, 2.0);
+    start.friction_gamma = gamma;
+    if (fst_fit_points(&start, points, &options, &fit, &error) != FST_OK)
+        fail_msg("%s: %s", error.where, error.sentence);
+    const double chi2 = fit.chi2;
+    fst_fit_free(&fit);
+    return chi2;
+}
+
+/* Numbers that hardly tell kappa from gamma: chi^2 rises slowly on one side.  Two errors away it has risen by 4, as another
+ * fit finds that holds gamma there; two errors of the curvature away it has not.  Of good numbers nothing is widened, and of
+ * numbers that no model has no interval is sought. */
+static void test_no_parabola(void **state)
+{
+    (void)state;
+    const fst_params params = fst_default_params();
+    const fst_fit_options options = wishes(kappa_gamma, 2);
+    fst_points points;
+    fst_fit fit;
+    uint64_t seed = 23767;
+    int widened = 0;
+    for (int table = 0; table < 4; ++table) {
+        assert_true(fit_table(&params, 10.0, 20.0, 8, &points));
+        for (size_t i = 0; i < points.count && table < 3; ++i)
+            for (int q = 0; q < FST_MEASURED_COUNT; ++q)
+                points.rows[i].error[q] *= 10.0;
+        fit_add_noise(&points, &seed);
+        must_fit(&points, &options, &fit);
+        assert_int_equal(strstr(fit.remarks, "no parabola") != NULL, fit.widened > 1.0);
+        const double gamma = fit.parameters[1].value, error = fit.parameters[1].error;
+        const double rise = held(&points, gamma + 2.0 * error) - fit.chi2,
+                     by_curvature = held(&points, gamma + 2.0 * error / fit.widened) - fit.chi2;
+        print_message("gamma %.1f +- %.1f, widened %.3f: chi^2 rises by %.2f, by the curvature %.2f\n", gamma,
+                      error, fit.widened, rise, by_curvature);
+        assert_true(rise > 4.0 / (1.2 * 1.2)); /* nothing is widened that is too small by less than a fifth */
+        if (fit.widened > 1.5) {
+            assert_true(by_curvature < 3.0);
+            ++widened;
+        }
+        assert_true(table < 3 || fit.widened == 1.0);
+        fst_fit_free(&fit);
+        if (table == 3) {
+            for (size_t i = 0; i < points.count; ++i)
+                points.rows[i].value[FST_MEASURED_MEAN_R] *= 1.1;
+            must_fit(&points, &options, &fit);
+            assert_true(fit.error_scale > 3.0 && isnan(fit.parameters[0].interval[0]));
+            assert_non_null(strstr(fit.remarks, "does not fit"));
+            fst_fit_free(&fit);
+        }
+        free(points.rows);
+    }
+    assert_true(widened > 0);
+}
+
 static void test_wild_number_is_named_and_does_not_drag(void **state)
 {
     (void)state;
@@ -280,6 +342,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_exact_numbers_give_their_parameters),
         cmocka_unit_test(test_errors_cover),
+        cmocka_unit_test(test_no_parabola),
         cmocka_unit_test(test_wild_number_is_named_and_does_not_drag),
         cmocka_unit_test(test_signs),
         cmocka_unit_test(test_what_is_given),
