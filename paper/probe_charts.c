@@ -148,8 +148,8 @@ fst_status fst_paper_draw_remanence(const fst_paper_state *paper, const fst_pape
     const fst_chart_panel panel = panel_of("least κ (% of a neodymium bead's)", 0.0, NAN, LISTED(curves));
     fst_chart chart =
         chart_of(figure->title, "magnetisability a (1000 a/(m ℓ²γ²/B_0²))", 0.9, 3.1, 0, &panel, 1);
-    (void)snprintf(remark, sizeof remark, "each within %.1g %%: from a κ that is too small to the next one tried",
-                   widest);
+    (void)snprintf(remark, sizeof remark,
+                   "each within %.1g %%: from a κ that is too small to the next one tried", widest);
     chart.remark = remark;
     return fst_figure_chart(out, &chart, error);
 }
