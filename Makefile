@@ -45,7 +45,7 @@ mutants: ## put faults into the code, one at a time, and count which ones the te
 
 CAMPAIGNS = kills rot power faults whole fuzz
 
-reliability: ## attack what must not be lost, at full length; write docs/reliability.md
+reliability: ## attack what must not be lost, at full length; write docs/inside/reliability.md
 	@$(PACKAGES) test-long
 	@cmake --preset release --log-level=WARNING -DFESTOON_TESTS=ON
 	@cmake --build build -j $(JOBS)

@@ -1,4 +1,4 @@
-/* results.h - the figures of a benchmark for tables.py, which makes docs/performance.md's tables of them. */
+/* results.h - the figures of a benchmark for tables.py, which makes docs/inside/performance.md's tables of them. */
 #ifndef FST_BENCH_RESULTS_H
 #define FST_BENCH_RESULTS_H
 

@@ -1,7 +1,7 @@
 /* orbits.h - periodic orbits, equilibria, their branches and bifurcations, Lyapunov spectra; festoon.h includes
  * it.
  *
- * Everything here needs LAPACK; FST_UNAVAILABLE where this build or machine has none.  docs/orbits.md explains
+ * Everything here needs LAPACK; FST_UNAVAILABLE where this build or machine has none.  docs/inside/orbits.md explains
  * the methods and criteria.
  */
 #ifndef FESTOON_ORBITS_H

@@ -149,7 +149,7 @@ const command locked_command = {
     .summary = "Every equilibrium of the turning frame: the bead goes round with the magnet",
     .details =
         "Vectors are inertial, in components along the magnet's axes.  The list comes from many starts of\n"
-        "Newton's method; docs/orbits.md says why it is believed to be complete.\n",
+        "Newton's method; docs/inside/orbits.md says why it is believed to be complete.\n",
     .options = options,
     .most_operands = 1,
     .perform = perform,

@@ -146,7 +146,7 @@ const command orbit_command = {
     .details =
         "The bead is followed until its returns come close; Newton's method finds the orbit.  With --festoons\n"
         "the drive is solved for: the lowest omega at which a stable pattern closes after N festoons, and the\n"
-        "others.  docs/orbits.md explains how.\n",
+        "others.  docs/inside/orbits.md explains how.\n",
     .options = options,
     .most_operands = 1,
     .perform = perform,

@@ -14,7 +14,7 @@
  * one, and how many starts led to it is reported.
  *
  * A sign of completeness is the index, the sum of the signs of det(-J): states appear and vanish in pairs of
- * opposite sign, so the sum stays the same unless a state comes from far away (docs/orbits.md).
+ * opposite sign, so the sum stays the same unless a state comes from far away (docs/inside/orbits.md).
  *
  * To follow them over a parameter they are searched at several values, more closely spaced at the low end, and
  * a state is skipped if a branch already passes through it.

@@ -17,7 +17,7 @@
 
 enum { PIECES = 16, LEVELS = 8, GROUP = 8, LONGER = 4 /* times run.periods, where a run is undecided */ };
 static const double LASTING = 0.1, BRANCH_BELOW = 0.02, BRANCH_ABOVE = 0.1;
-static const double BRANCH_ERROR = 1e-9; /* relative; docs/orbits.md, special points */
+static const double BRANCH_ERROR = 1e-9; /* relative; docs/inside/orbits.md, special points */
 
 typedef struct speed {
     double value;

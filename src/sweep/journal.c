@@ -34,7 +34,7 @@
  * are saved beside it first (rescue()).
  *
  * On a network file system a rollback journal takes the place of the write-ahead log, with the same promises.
- * docs/sweeps.md lists the promises; docs/reliability.md says how they are attacked.
+ * docs/sweeps.md lists the promises; docs/inside/reliability.md says how they are attacked.
  */
 #include "sweep/journal.h"
 

@@ -387,7 +387,7 @@ def results_version():
 
 
 def text_of(rows, survivors, few):
-    """The section of docs/reliability.md; `few` are the faults of which only the likely tests were run."""
+    """The section of docs/inside/reliability.md; `few` are the faults of which only the likely tests were run."""
     text = ("Faults that a reviewer would call bugs (a wrong sign, factor, index or threshold; a check, a term or an "
             "error bar left\nout; an unquoted text; an ignored status) are put into the code by hand, one at a time. "
             "`tests/mutants/*.mutants` lists\nthem, a block for each fault. For each fault the tree is built, and its "
@@ -423,7 +423,7 @@ def arguments():
     parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count(), help="processes of each build")
     parser.add_argument("--place", default=os.path.join(SOURCE, "build-mutants"), metavar="FOLDER",
                         help="where the copies of the tree and the results are (build-mutants)")
-    parser.add_argument("--write", action="store_true", help="rewrite section mutants of docs/reliability.md")
+    parser.add_argument("--write", action="store_true", help="rewrite section mutants of docs/inside/reliability.md")
     return parser.parse_args()
 
 

@@ -255,7 +255,7 @@ extern void *__libc_realloc(void *old, size_t size);
 extern void *__libc_memalign(size_t alignment, size_t size);
 
 /* Whether a library works that says to nobody that it got no memory: pixman leaves out letters, and fontconfig a file
- * of its settings, so that another font is taken (docs/reliability.md).  Nobody above them can mend that. */
+ * of its settings, so that another font is taken (docs/inside/reliability.md).  Nobody above them can mend that. */
 static int is_silent_library(void)
 {
     enum { DEEPEST = 100 };

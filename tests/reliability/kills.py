@@ -7,7 +7,7 @@ the end are those of a sweep that was never killed.
 N kills (500) are shared between kinds of sweeps.  Each database is killed several times, each time at another moment:
 while it is made, when so many rows are in it, when runs in flight were saved, or anywhere; then the command is given
 once more and may end.  Work is sized by measuring it, and only blows that struck a program at work count.  --write
-puts the table into docs/reliability.md.  Environment: FESTOON is the program, SOURCE_DIR the source tree.  Status 1: a
+puts the table into docs/inside/reliability.md.  Environment: FESTOON is the program, SOURCE_DIR the source tree.  Status 1: a
 promise was broken.
 """
 

@@ -1,4 +1,4 @@
-"""The sections of docs/reliability.md: each campaign rewrites its own and leaves the others alone.
+"""The sections of docs/inside/reliability.md: each campaign rewrites its own and leaves the others alone.
 
 A section stands between two comment lines, <!-- begin NAME --> and <!-- end NAME -->.
 """
@@ -10,9 +10,9 @@ import textwrap
 
 
 def page():
-    """Path of docs/reliability.md in the source tree."""
+    """Path of docs/inside/reliability.md in the source tree."""
     source = os.environ.get("SOURCE_DIR") or os.path.join(os.path.dirname(__file__), "..", "..")
-    return os.path.join(source, "docs", "reliability.md")
+    return os.path.join(source, "docs", "inside", "reliability.md")
 
 
 def table(head, rows):

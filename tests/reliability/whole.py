@@ -405,7 +405,7 @@ def table(campaign):
 
 
 def report(campaign, places):
-    """The section of docs/reliability.md."""
+    """The section of docs/inside/reliability.md."""
     broken = "".join(f"- {line}\n" for line in campaign.violations[:20])
     return f"""The promise: a command ends with status 0 and its whole output, or with status 1, one sentence, and of each
 file all or nothing; also when memory runs out half way.

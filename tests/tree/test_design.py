@@ -196,8 +196,8 @@ class Pages(unittest.TestCase):
                     self.assertTrue(self.is_name(name), f"{path} names {name}, which is not in src/ or include/")
 
     def test_faults_named_are_there(self):
-        """docs/reliability.md names faults of tests/mutants, each with its file."""
-        text = (SOURCE / "docs" / "reliability.md").read_text(encoding="utf-8")
+        """docs/inside/reliability.md names faults of tests/mutants, each with its file."""
+        text = (SOURCE / "docs" / "inside" / "reliability.md").read_text(encoding="utf-8")
         section = re.search(r"<!-- begin mutants -->(.*?)<!-- end mutants -->", text, re.S)[1]
         sys.path.insert(0, str(SOURCE / "tests" / "mutants"))
         import entries as listed  # noqa: E402
@@ -205,7 +205,7 @@ class Pages(unittest.TestCase):
         listed.stale(entries, SOURCE)
         faults = {entry.name: entry.path for entry in entries}
         for name, path in re.findall(r"^- `([\w-]+)` in `([\w./]+)`", section, re.M):
-            self.assertEqual(faults.get(name), path, f"docs/reliability.md: {name} in {path}")
+            self.assertEqual(faults.get(name), path, f"docs/inside/reliability.md: {name} in {path}")
 
 
 if __name__ == "__main__":
