@@ -44,6 +44,7 @@ from .sweeping import sweep
 from .sweep_tables import SweepTable
 from .sweeps import Sweep
 from .trajectories import Trajectory
+from .worlds import World
 
 if TYPE_CHECKING:
     from typing import List
@@ -95,6 +96,7 @@ __all__ = [
     "Trajectory",
     "UNSET",
     "Unavailable",
+    "World",
     "WorldRun",
     "components",
     "export",

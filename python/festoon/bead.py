@@ -530,7 +530,7 @@ class Bead(Parameters):
         if self._params.magnet_part_count:
             words.append(f"magnet__parts={self.magnet__parts!r}")
         words += [f"{keyword_of(key)}={vector}" for key, vector in self._vectors().items()]
-        return f"Bead({', '.join(words)})"
+        return f"{type(self).__name__}({', '.join(words)})"
 
     def _repr_html_(self) -> str:
         from . import _cards

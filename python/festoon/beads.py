@@ -232,7 +232,7 @@ class Beads(Bead):
         return beads_orbits.branch(self._asked(), progress, ranges)  # type: ignore[arg-type]
 
     def __repr__(self) -> str:
-        rest = super().__repr__()[len("Bead(") :]
+        rest = super().__repr__()[len("Beads(") :]
         return f"Beads(beads={self.beads}{', ' if rest != ')' else ''}{rest}"
 
     def _repr_html_(self) -> str:

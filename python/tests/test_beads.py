@@ -98,8 +98,11 @@ def test_files_of_a_world(program, world, tmp_path):
     start("init", "world.yaml", "--world", world)
     short = ("--set", "run.duration=0.05")
     told = json.loads(start("run", "world.yaml", *short, "-o", "t.h5", "--fps", "100", "--json"))
-    bead = fs.Bead(tmp_path / "world.yaml", run__duration=0.05)
+    bead = fs.World(tmp_path / "world.yaml", run__duration=0.05)
     run = bead.run(trajectory=True, fps=100)
+    assert isinstance(run, fs.WorldRun) and repr(bead).startswith("World(")
+    assert bead.cause == {"wave": "drive.waveform", "compass": "field.uniform"}.get(world, "plate.shape")
+    assert bead == fs.Bead(tmp_path / "world.yaml", run__duration=0.05) == pickle.loads(pickle.dumps(bead))
     assert run.frame == told["frame"] and run.regime == told["regime"] and np.array_equal(run.final_lab, told["final_lab"])
     assert pickle.loads(pickle.dumps(run)) == run and run.to_dict().keys() == told.keys()
     read = fs.read(tmp_path / "t.h5")
@@ -163,6 +166,10 @@ def test_what_is_wrong_is_said(pair):
         fs.Beads(frequency=12)
     with pytest.raises(fs.BadInput, match="Beads"):
         fs.Bead(pair.scene() + "\n")
+    with pytest.raises(fs.BadInput, match="Bead\\(\\) is for it"):
+        fs.World(frequency=12)
+    with pytest.raises(fs.BadInput, match="World"):
+        fs.World(plate__shape="bowl", plate__bowl_radius="200 mm").replace(plate__shape="flat", plate__bowl_radius=fs.UNSET)
     with pytest.raises(fs.BadInput, match="for one bead"):
         pair.lyapunov()
     with pytest.raises(fs.BadInput, match="each from its own start"):
