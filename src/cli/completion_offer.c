@@ -77,19 +77,22 @@ static void offer_setting(place *p, int with_choices)
     }
 }
 
-/* The next name of a list with commas: of keys of festoon run, or of parameters. */
-static void offer_next(place *p, int results)
+/* The next name of a list with commas: of parameters ("KEY,KEY"), or of keys of festoon run ("KEY,..."), and columns
+ * ("NAME,..."). */
+static void offer_next(place *p, const char *value)
 {
     const char *comma = strrchr(p->typed, ',');
     p->typed = comma ? comma + 1 : p->typed;
     (void)fputs("open\n", p->out);
-    if (!results) {
+    if (strcmp(value, "KEY,KEY") == 0) {
         offer_keys(p, "");
         return;
     }
     offer_name(p, "regime", "");
     for (int i = 0; i < fst_result_count(); ++i)
         offer_name(p, fst_result_at(i)->name, "");
+    for (int i = 0; value[0] == 'N' && i < fst_column_count(); ++i)
+        offer_name(p, fst_column_at(i)->name, "");
 }
 
 /* Files: the shell finds them, by the endings in "[SCENE.yaml] ..." or "FILE.(h5|csv) ...", if it names some.
@@ -115,8 +118,8 @@ static void offer_value(place *p, const char *value)
         offer_setting(p, strcmp(value, "KEY=VALUE") == 0);
         return;
     }
-    if (strncmp(value, "KEY", 3) == 0) {
-        offer_next(p, strcmp(value, "KEY,KEY") != 0);
+    if (strncmp(value, "KEY", 3) == 0 || strcmp(value, "NAME,...") == 0) {
+        offer_next(p, value);
         return;
     }
     (void)fputs("words\n", p->out);
@@ -163,10 +166,10 @@ static void offer_in_command(place *p, const command *shown, const char *before)
         return;
     }
     (void)fputs("words\n", p->out);
-    for (row = shown->options; p->word[0] == '-' && row->name; ++row)
-        offer_option(p, row->name, row->help);
-    if (p->word[0] == '-')
-        offer_option(p, "help", "How to use it");
+    const option *const tables[] = {shown->options, common_options};
+    for (int i = 0; p->word[0] == '-' && i < 2; ++i)
+        for (row = tables[i]; row->name; ++row)
+            offer_option(p, row->name, row->help);
 }
 
 void offer_words(int count, char **words, FILE *out)
