@@ -63,7 +63,7 @@ const command *find_command(const char *name);
 #define UNITS_OPTION                                                                                           \
     {                                                                                                          \
         "units", '\0', FST_WORDS(FST_SHOWN),                                                                   \
-            "what is shown is as given, lab (Hz, mm, s, mT, mN, mW), scaled (l, 1/gamma, B0) or si"            \
+            "as given, lab (Hz, mm, s, mT, mN, mW), scaled (l, 1/gamma, B0) or si"                             \
     }
 
 /* Fill in `error` and return `code`. */

@@ -23,13 +23,13 @@ static const option options[] = {
     UNITS_OPTION,
     {"no-arrows", '\0', NULL, "draw no arrows of the horizontal moment along the path"},
     {"frame", '\0', "lab|magnet", "from where the path is seen: the laboratory, or the turning magnet"},
-    {"inset", '\0', NULL, "draw the moment's path in the local frame in the middle of the bead's path"},
+    {"inset", EXPERT, NULL, "draw the moment's path in the local frame in the middle of the bead's path"},
     {"from", '\0', "P", "first drive period shown"},
     {"to", '\0', "P", "last drive period shown"},
     {"zoom", '\0', "X0,X1,Y0,Y1", "the part of the plate shown, in mm"},
     {"points", '\0', "DATA.csv",
      "lay measured points over a sweep or a branch over the drive, with their errors, and tell chi^2"},
-    {"runs", '\0', "FILE", "lay runs over a branch as dots, from documents of festoon run --json"},
+    {"runs", EXPERT, "FILE", "lay runs over a branch as dots, from documents of festoon run --json"},
     {NULL, '\0', NULL, NULL},
 };
 

@@ -146,7 +146,7 @@ class Series(Case):
         times = [x for x, _ in blocks["panel1-curve1"]]
         self.assertAlmostEqual(times[-1] * GAMMA, columns["t"][-1], delta=1e-3 * columns["t"][-1])
         self.assertIn("(9 to 11.99 Hz)", texts)
-        self.assertIn("(9 to 11.99 Hz)", self.plot("ramp.csv", "--quantity", "slip")[0])
+        self.assertIn("(9 to 11.99 Hz)", self.plot("ramp.csv", "--kind", "path", "--quantity", "slip")[0])
         self.assertIn("Path of the bead", self.plot("t.csv")[0])
 
     def test_panels_stand_apart(self):
