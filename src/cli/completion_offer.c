@@ -129,18 +129,6 @@ static void offer_value(place *p, const char *value)
         offer_list(p, value);
 }
 
-/* The option of a word that wants a value: "--name", "--name=..." or "-o". */
-static const option *option_of(const option *row, const char *word)
-{
-    const size_t length = strcspn(word, "=");
-    for (; row->name; ++row)
-        if (row->value && ((length > 2 && strncmp(word, "--", 2) == 0 && strlen(row->name) == length - 2 &&
-                            memcmp(row->name, word + 2, length - 2) == 0) ||
-                           (row->letter && word[0] == '-' && word[1] == row->letter && !word[2])))
-            return row;
-    return NULL;
-}
-
 static void offer_commands(const place *p)
 {
     (void)fputs("words\n", p->out);
@@ -155,8 +143,8 @@ static void offer_commands(const place *p)
 static void offer_in_command(place *p, const command *shown, const char *before)
 {
     const char *sign = strncmp(p->word, "--", 2) == 0 ? strchr(p->word, '=') : NULL;
-    const option *row = option_of(shown->options, sign ? p->word : before);
-    if (row && (sign || !strchr(before, '='))) {
+    const option *row = find_option(shown, sign ? p->word : before);
+    if (row && row->value && (sign || !strchr(before, '='))) {
         p->typed = sign ? sign + 1 : p->word;
         offer_value(p, row->value);
         return;

@@ -73,12 +73,13 @@ const command export_command = {
     .name = "export",
     .synopsis = "FILE.db --csv|--json|--hdf5 [-o FILE] [options]",
     .summary = "Print the rows of a sweep in the order of its points",
-    .details = "With --quantity or --units the CSV has the varied parameters and the keys (regime, mean_r, "
-               "std_r, mean_alpha_dot\n"
-               "unless told) with their units, as in \"mean_r [mm]\", and the status of each point: done, "
-               "missing, or why a run\n"
-               "failed.  Damaged rows are named and left out, with status 2; the command of the sweep computes "
-               "them again.\n",
+    .details =
+        "With --quantity or --units the CSV has the varied parameters and the keys (regime, mean_r, std_r,\n"
+        "mean_alpha_dot unless told) with their units, as in \"mean_r [mm]\", and the status of each point: "
+        "done,\n"
+        "missing, or why a run failed.  Damaged rows are named, with status 2, and -o FILE has the others; "
+        "the\n"
+        "command of the sweep computes them again.\n",
     .options = options,
     .most_operands = 1,
     .much_output = 1,

@@ -293,7 +293,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command field_command = {
     .name = "field",
-    .synopsis = "[SCENE.yaml] --at X,Y | -o FIG.(svg|pdf|png) | --csv FILE [options]",
+    .synopsis = "[SCENE.yaml] --at X,Y | -o FIG | --csv FILE [options]",
     .summary = "The magnet's field and its gradient at a point, or drawn as a map",
     .details = "Places without a unit are in l (half the length of the magnet's lines), in the magnet's frame; "
                "fields are in B0,\n"

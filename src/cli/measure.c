@@ -301,7 +301,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command measure_command = {
     .name = "measure",
-    .synopsis = "TRACK... [--drive 10.7Hz] [--scale 0.123mm] [-o POINTS.csv] [options]",
+    .synopsis = "TRACK... [--drive 10.7Hz] [-o POINTS.csv] [options]",
     .summary = "Radius, frequency, festoons and drive of a filmed bead, from its track",
     .details = "The format is recognised, and what was understood is printed: festoon, generic (any table with "
                "columns t [s] or\n"

@@ -100,14 +100,13 @@ static fst_status unknown_option(const command *of, const char *word, fst_error 
                 fst_suggest_name(written, names, suggestion));
 }
 
-/* Whether `word` is an option of the command: then it is not the value of another one. */
-static int is_option(const command *of, const char *word)
+const option *find_option(const command *of, const char *word)
 {
     if (word[0] != '-')
-        return 0;
+        return NULL;
     if (word[1] == '-')
-        return find_long(of, word + 2, strcspn(word + 2, "=")) != NULL;
-    return word[1] && !word[2] && find_letter(of->options, word[1]) != NULL;
+        return find_long(of, word + 2, strcspn(word + 2, "="));
+    return word[1] && !word[2] ? find_letter(of->options, word[1]) : NULL;
 }
 
 static fst_status keep_option(arguments *given, const option *row, const char *value, fst_error *error)
@@ -143,18 +142,18 @@ static fst_status read_option(const command *of, int count, char **words, int *a
     }
     if (!row)
         return unknown_option(of, word, error);
+    if (row == &gone)
+        return FST_OK;
     if (!row->value) {
         if (value)
             return fail(error, FST_BAD_INPUT, "", "--%s takes no value", row->name);
-        if (row == &gone)
-            return FST_OK;
         return keep_option(given, row, "", error);
     }
     if (!value) {
         if (*at + 1 == count)
             return fail(error, FST_BAD_INPUT, "", "--%s needs a value: %s", row->name, row->value);
         value = words[++*at];
-        if (is_option(of, value))
+        if (find_option(of, value)) /* then it is no value */
             return fail(error, FST_BAD_INPUT, "", "--%s needs a value (%s), but %s follows", row->name,
                         row->value, value);
     }

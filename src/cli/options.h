@@ -13,6 +13,8 @@ typedef struct option {
 } option;
 enum { EXPERT = 1 };
 
+struct command;
+
 /* The options that every command takes. */
 extern const option common_options[];
 
@@ -36,9 +38,11 @@ typedef struct arguments {
 /* Read words[0..count) by the table of a command.  A value may begin with a minus.  Only --over, --given and options of a
  * KEY=VALUE may be repeated.  A name that an option had before is taken, with a sentence on standard error.  FST_BAD_INPUT:
  * unknown option (the sentence names the nearest), missing or superfluous value, too many operands. */
-struct command;
 fst_status read_arguments(const struct command *of, int count, char **words, arguments *given,
                           fst_error *error);
+
+/* The row of a word that is an option of a command, "--name", "--name=..." or "-o"; NULL: it is none. */
+const option *find_option(const struct command *of, const char *word);
 
 /* The value of --name, "" for an option without value; NULL where it was not given. */
 const char *option_value(const arguments *given, const char *name);

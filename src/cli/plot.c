@@ -280,9 +280,9 @@ const command plot_command = {
     .synopsis = "FILE.(h5|csv|json|db)... -o FIG.(svg|pdf|png) [options]",
     .summary =
         "Draw a trajectory of run, a branch of branch -o, or the rows of a sweep; or several over each other",
-    .details = "  festoon plot run.h5 -o f.svg                            the path\n"
-               "  festoon plot run.h5 -o f.svg --kind time --quantity r   its radius\n"
-               "  festoon plot map.db -o f.svg --quantity mean_r          a sweep\n",
+    .details = "  festoon plot run.h5 -o f.svg                           the path\n"
+               "  festoon plot run.h5 -o f.svg --kind time --quantity r  radius\n"
+               "  festoon plot map.db -o f.svg --quantity mean_r         a sweep\n",
     .options = options,
     .most_operands = FST_CHARTS_OVER,
     .has_helpers = 1,

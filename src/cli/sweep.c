@@ -286,7 +286,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command sweep_command = {
     .name = "sweep",
-    .synopsis = "[SCENE.yaml] --over KEY=LO:HI:COUNT [--over ...] -o FILE.db [options]",
+    .synopsis = "[SCENE.yaml] --over KEY=LO:HI:COUNT... -o FILE.db [options]",
     .summary = "Run every point of a grid into a database, and go on where it stopped",
     .details = "Each point gets one row with the keys of festoon run, a run that fails too.  Several --over "
                "multiply, the last\n"

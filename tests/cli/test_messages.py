@@ -163,7 +163,7 @@ class Help(Case):
         for name in names:
             head, _, options = self.good(name, "--help").partition("\noptions:\n")
             for line in options.splitlines():
-                self.assertRegex(line, r"^(  -\w, --|   --|  {29})", name)
+                self.assertRegex(line, r"^(  -\w, --|   --|  {29}|$|expert:$)", name)
             for line in (*options.splitlines(), *head.splitlines()[:2]):
                 self.assertLessEqual(len(line), 112, name)
 
