@@ -1,7 +1,8 @@
 """Names of options: an old name gives what the new one gives, with a sentence, and is offered nowhere; the manual page
 says each option once and gives a command exactly the options that it takes, with the words of its help.
 
-tests: cli/options.c cli/help.c cli/completion_offer.c cli/schema.c"""
+tests: cli/options.c cli/help.c cli/completion_offer.c cli/schema.c
+labels: slow"""
 
 import json
 import os
