@@ -72,7 +72,7 @@ class OldNames(Case):
         self.good("branch", "--kind", "locked", "--over", "drive.omega=0.06:0.07", "-o", self.path("b.json"))
         with open(self.path("points.csv"), "w", encoding="utf-8") as file:
             file.write("frequency [Hz],mean_r [mm],mean_r_error [mm]\n" + "".join(
-                f"{f},{r},0.2\n" for f, r in ((11, 18.9), (12, 18.2), (14, 17.1), (16, 16.2), (19, 15.1))))
+                f"{f},{r},0.2\n" for f, r in ((12, 19.1), (15, 20.3), (19, 20.5))))
         with open(self.path("many.csv"), "w", encoding="utf-8") as file:
             text = tracks.trackpy(tracks.places())
             rows = [row[:-1] + "8" for row in text.splitlines() if row.endswith(",7")]
