@@ -12,4 +12,4 @@ festoon=${FESTOON-$(command -v festoon || echo "$(dirname "$0")/../build/festoon
 
 "$festoon" sweep --set drive.frequency=10.7Hz --set run.periods=200 --set run.discard=100 --set start.spin=rest \
     --over "start.r=0.1:3:$count" --over "start.phi=0:360:$count" -o sweep-basins.db
-"$festoon" plot sweep-basins.db --key mean_nz --units lab -o sweep-basins.png
+"$festoon" plot sweep-basins.db --quantity mean_nz --units lab -o sweep-basins.png

@@ -12,4 +12,4 @@ festoon=${FESTOON-$(command -v festoon || echo "$(dirname "$0")/../build/festoon
 "$festoon" sweep --set run.periods=200 --set run.discard=100 --over "drive.frequency=1Hz:40Hz:$count" \
     --over "model.kappa=0.1:3:$count" -o sweep-frequency-kappa.db
 "$festoon" plot sweep-frequency-kappa.db -o sweep-frequency-kappa.png
-"$festoon" plot sweep-frequency-kappa.db --key mean_r --units lab -o sweep-frequency-kappa-radius.png
+"$festoon" plot sweep-frequency-kappa.db --quantity mean_r --units lab -o sweep-frequency-kappa-radius.png

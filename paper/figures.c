@@ -100,7 +100,7 @@ static void plot_options(const fst_paper_state *paper, const fst_paper_figure *f
     char zoom[64] = "";
     if (figure->zoomed)
         (void)snprintf(zoom, sizeof zoom, " --zoom 0,%g,0,%g", corner, corner);
-    (void)snprintf(text, size, "%s%s%s%s%s%s", kinds[figure->kind], figure->colour ? " --colour " : "",
+    (void)snprintf(text, size, "%s%s%s%s%s%s", kinds[figure->kind], figure->colour ? " --quantity " : "",
                    figure->colour ? figure->colour : "", figure->plain ? " --no-arrows" : "",
                    figure->inset ? " --inset" : "", zoom);
 }

@@ -7,7 +7,7 @@ or, within Blender, in the text editor: open this file, and run it; TRACKS.csv t
 
 Each track of the clip becomes rows `frame,t [s],x [px],y [px],track`: frames of the film from 1 as Blender counts them,
 times by the clip's frame rate, places in pixels from the lower left corner of the picture, y up.  A frame in which the
-marker is muted has empty cells: the bead was lost there.  festoon measure takes the longest track, or --track NAME.
+marker is muted has empty cells: the bead was lost there.  festoon measure takes the longest track, or --only NAME.
 
 Without Blender this file can be imported: table() makes the text of any object that looks like a clip.
 """

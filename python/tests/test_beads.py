@@ -97,7 +97,7 @@ def test_files_of_a_world(program, world, tmp_path):
 
     start("init", "world.yaml", "--world", world)
     short = ("--set", "run.duration=0.05")
-    told = json.loads(start("run", "world.yaml", *short, "-o", "t.h5", "--fps", "100", "--json"))
+    told = json.loads(start("run", "world.yaml", *short, "-o", "t.h5", "--sample-rate", "100", "--json"))
     bead = fs.World(tmp_path / "world.yaml", run__duration=0.05)
     run = bead.run(trajectory=True, fps=100)
     assert isinstance(run, fs.WorldRun) and repr(bead).startswith("World(")

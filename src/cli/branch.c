@@ -16,10 +16,9 @@ static const option options[] = {
      "a second parameter and its range: special points are followed as curves over both"},
     {"follow", '\0', FST_WORDS(FST_FOLLOWED_SPECIALS), "type of these special points"},
     {"output", 'o', "FILE.json", "write the branch to a file, for festoon plot"},
-    {"tolerance", '\0', "T",
+    {"tolerance", EXPERT, "T",
      "tolerance of the integration; that of Newton's method and of special points follows it (1e-12)"},
-    {"step", '\0', "S", "greatest step along the branch, scaled (0.5)"},
-    QUIET_OPTION,
+    {"step", EXPERT, "S", "greatest step along the branch, scaled (0.5)"},
     {NULL, '\0', NULL, NULL},
 };
 
@@ -258,17 +257,11 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command branch_command = {
     .name = "branch",
-    .synopsis = "[SCENE.yaml] [--set KEY=VALUE]... --kind KIND --over KEY=LO:HI [-o FILE.json] [--json]",
+    .synopsis = "[SCENE.yaml] --kind KIND --over KEY=LO:HI [-o FILE.json] [options]",
     .summary = "Follow families of orbits or locked states over a parameter, with their bifurcations",
-    .details =
-        "counter: the symmetric counter-rotating branch both ways through the range, and the branches that\n"
-        "leave it, through r = 0 and beyond.  locked: every family of equilibria.  all: these, and the orbits\n"
-        "born at their Hopf points.  With --with and --follow, special points of one type are sought over the "
-        "first "
-        "parameter\n"
-        "at the scene's value of the second, and each is followed as a curve over both.  festoon plot draws "
-        "the\n"
-        "file.\n",
+    .details = "With --with and --follow, special points of one type are sought over the first parameter at "
+               "the scene's value of\n"
+               "the second, and each is followed as a curve over both.  festoon plot draws the file.\n",
     .options = options,
     .most_operands = 1,
     .perform = perform,

@@ -10,21 +10,21 @@
 #define CAMERA_OPTIONS                                                                                         \
     {"camera", '\0', NULL, "a film as a camera over the plate takes it, with the truth in FILM.truth.csv"},    \
         {"exposure", '\0', "T", "camera: how long a row is exposed, as 1/500s or 2ms (1ms)"},                  \
-        {"readout", '\0', "T", "camera: from the first row to the last, a rolling shutter (3ms)"},             \
         {"noise", '\0', "LEVELS", "camera: deviation of a pixel in gray levels of 255 (2)"},                   \
-        {"uneven", '\0', "PART", "camera: how much darker the darkest corner is (0.2)"},                       \
-        {"flicker", '\0', "PART", "camera: how much lamps at 100 Hz flicker (0)"},                             \
         {"tilt", '\0', "ANGLE", "camera: its angle off the vertical (5deg)"},                                  \
-        {"side", '\0', "ANGLE", "camera: where it stands, from the x axis (-90deg: at the lower edge)"},       \
         {"distance", '\0', "LENGTH", "camera: from the middle of the plate (1.5 plates)"},                     \
         {"plate", '\0', "LENGTH", "camera: diameter of the plate (what the motion needs)"},                    \
-        {"quality", '\0', "N", "camera: compression, from 0, lossless, to 51 (23)"},                           \
         {"marks", '\0', "MARKS",                                                                               \
          "camera: black paint on a coated bead, half or dots; the truth then tells how it turns (none)"},      \
-        {"drop", '\0', "N", "camera: it loses every Nth frame, so that the times jump"},                       \
-        {"stored-fps", '\0', "F", "camera: frames a second that the film claims (the truth)"},                 \
+        SEED_OPTION,                                                                                           \
+        {"readout", EXPERT, "T", "camera: from the first row to the last, a rolling shutter (3ms)"},           \
+        {"uneven", EXPERT, "PART", "camera: how much darker the darkest corner is (0.2)"},                     \
+        {"flicker", EXPERT, "PART", "camera: how much lamps at 100 Hz flicker (0)"},                           \
+        {"side", EXPERT, "ANGLE", "camera: where it stands, from the x axis (-90deg: at the lower edge)"},     \
+        {"quality", EXPERT, "N", "camera: compression, from 0, lossless, to 51 (23)"},                         \
+        {"drop", EXPERT, "N", "camera: it loses every Nth frame, so that the times jump"},                     \
     {                                                                                                          \
-        "seed", '\0', "N", "camera: of the noise (1)"                                                          \
+        "stored-fps", EXPERT, "F", "camera: frames a second that the film claims (the truth)"                  \
     }
 
 /* Whether one of these options was given; its name, or NULL. */

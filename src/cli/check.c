@@ -102,7 +102,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command check_command = {
     .name = "check",
-    .synopsis = "[SCENE.yaml] [--set KEY=VALUE]... [--json]",
+    .synopsis = "[SCENE.yaml] [--json]",
     .summary = "Read a scene and print what it means, in SI and scaled, without running it",
     .details = "",
     .options = options,

@@ -45,15 +45,25 @@ const command *find_command(const char *name);
         "json", '\0', NULL, "one JSON document on standard output instead of text"                             \
     }
 
-/* Of every command that may take minutes: what shows progress obeys it (program.c). */
-#define QUIET_OPTION                                                                                           \
+#define SEED_OPTION                                                                                            \
     {                                                                                                          \
-        "quiet", '\0', NULL, "no progress on standard error"                                                   \
+        "seed", '\0', "N", "seed of what is random (1)"                                                        \
+    }
+
+/* How a track that another program may have made is understood. */
+#define TRACK_OPTIONS                                                                                          \
+    {"fps", '\0', "F", "frames a second of the film, instead of the file's clock"},                            \
+        {"from", '\0', "FRAME", "the first frame that is taken, by the track's own numbers"},                  \
+        {"to", '\0', "FRAME", "the last one"},                                                                 \
+    {                                                                                                          \
+        "scale", '\0', "L[+-E]",                                                                               \
+            "the length of one unit of the file (of a pixel, mostly), as 0.123mm or 0.123+-0.001mm"            \
     }
 
 #define UNITS_OPTION                                                                                           \
     {                                                                                                          \
-        "units", '\0', FST_WORDS(FST_SHOWN), FST_DOCS(FST_SHOWN)                                               \
+        "units", '\0', FST_WORDS(FST_SHOWN),                                                                   \
+            "as given, lab (Hz, mm, s, mT, mN, mW), scaled (l, 1/gamma, B0) or si"                             \
     }
 
 /* Fill in `error` and return `code`. */
@@ -89,10 +99,10 @@ fst_status read_choice(const char *option_name, const char *text, const char *wh
 /* Read --units; as given where it is missing. */
 fst_status read_units(const arguments *given, fst_shown_units *units, fst_error *error);
 
-/* Read the names of --key, "mean_r,std_r", into `keys`, which point into `words`. */
+/* Read the names of --quantity, "mean_r,std_r", at most `most`; they point into `words`.  Those behind the last stay. */
 enum { KEY_LIMIT = 16, KEYS_SIZE = 512 };
-fst_status read_keys(const char *text, char words[KEYS_SIZE], const char *keys[KEY_LIMIT], int *count,
-                     fst_error *error);
+fst_status read_quantities(const arguments *given, char words[KEYS_SIZE], const char **names, int most,
+                           fst_error *error);
 
 /* Read a time with its unit: "2ms", "0.002 s", "500us", or "1/500s" as cameras write it. */
 fst_status read_time(const char *option_name, const char *text, double *seconds, fst_error *error);

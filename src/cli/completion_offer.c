@@ -77,19 +77,22 @@ static void offer_setting(place *p, int with_choices)
     }
 }
 
-/* The next name of a list with commas: of keys of festoon run, or of parameters. */
-static void offer_next(place *p, int results)
+/* The next name of a list with commas: of parameters ("KEY,KEY"), or of keys of festoon run ("KEY,..."), and columns
+ * ("NAME,..."). */
+static void offer_next(place *p, const char *value)
 {
     const char *comma = strrchr(p->typed, ',');
     p->typed = comma ? comma + 1 : p->typed;
     (void)fputs("open\n", p->out);
-    if (!results) {
+    if (strcmp(value, "KEY,KEY") == 0) {
         offer_keys(p, "");
         return;
     }
     offer_name(p, "regime", "");
     for (int i = 0; i < fst_result_count(); ++i)
         offer_name(p, fst_result_at(i)->name, "");
+    for (int i = 0; value[0] == 'N' && i < fst_column_count(); ++i)
+        offer_name(p, fst_column_at(i)->name, "");
 }
 
 /* Files: the shell finds them, by the endings in "[SCENE.yaml] ..." or "FILE.(h5|csv) ...", if it names some.
@@ -115,8 +118,8 @@ static void offer_value(place *p, const char *value)
         offer_setting(p, strcmp(value, "KEY=VALUE") == 0);
         return;
     }
-    if (strncmp(value, "KEY", 3) == 0) {
-        offer_next(p, strcmp(value, "KEY,KEY") != 0);
+    if (strncmp(value, "KEY", 3) == 0 || strcmp(value, "NAME,...") == 0) {
+        offer_next(p, value);
         return;
     }
     (void)fputs("words\n", p->out);
@@ -124,18 +127,6 @@ static void offer_value(place *p, const char *value)
         offer_name(p, fst_column_at(i)->name, "");
     if (strchr(value, '|') && strspn(value, "abcdefghijklmnopqrstuvwxyz0123456789|-") == strlen(value))
         offer_list(p, value);
-}
-
-/* The option of a word that wants a value: "--name", "--name=..." or "-o". */
-static const option *option_of(const option *row, const char *word)
-{
-    const size_t length = strcspn(word, "=");
-    for (; row->name; ++row)
-        if (row->value && ((length > 2 && strncmp(word, "--", 2) == 0 && strlen(row->name) == length - 2 &&
-                            memcmp(row->name, word + 2, length - 2) == 0) ||
-                           (row->letter && word[0] == '-' && word[1] == row->letter && !word[2])))
-            return row;
-    return NULL;
 }
 
 static void offer_commands(const place *p)
@@ -152,8 +143,8 @@ static void offer_commands(const place *p)
 static void offer_in_command(place *p, const command *shown, const char *before)
 {
     const char *sign = strncmp(p->word, "--", 2) == 0 ? strchr(p->word, '=') : NULL;
-    const option *row = option_of(shown->options, sign ? p->word : before);
-    if (row && (sign || !strchr(before, '='))) {
+    const option *row = find_option(shown, sign ? p->word : before);
+    if (row && row->value && (sign || !strchr(before, '='))) {
         p->typed = sign ? sign + 1 : p->word;
         offer_value(p, row->value);
         return;
@@ -163,10 +154,10 @@ static void offer_in_command(place *p, const command *shown, const char *before)
         return;
     }
     (void)fputs("words\n", p->out);
-    for (row = shown->options; p->word[0] == '-' && row->name; ++row)
-        offer_option(p, row->name, row->help);
-    if (p->word[0] == '-')
-        offer_option(p, "help", "How to use it");
+    const option *const tables[] = {shown->options, common_options};
+    for (int i = 0; p->word[0] == '-' && i < 2; ++i)
+        for (row = tables[i]; row->name; ++row)
+            offer_option(p, row->name, row->help);
 }
 
 void offer_words(int count, char **words, FILE *out)

@@ -8,9 +8,8 @@
 static const option options[] = {
     SCENE_OPTIONS,
     {"over", '\0', "KEY=LO:HI:COUNT", "the speeds of the first runs (drive.frequency=2Hz:30Hz:113)"},
-    {"tolerance", '\0', "T", "the width to which a border is enclosed, over the speed (1e-4)"},
+    {"tolerance", EXPERT, "T", "the width to which a border is enclosed, over the speed (1e-4)"},
     JSON_OPTION,
-    QUIET_OPTION,
     {NULL, '\0', NULL, NULL},
 };
 
@@ -85,15 +84,15 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command critical_command = {
     .name = "critical",
-    .synopsis = "[SCENE.yaml] [--set KEY=VALUE]... [--over KEY=LO:HI:COUNT] [--json]",
+    .synopsis = "[SCENE.yaml] [--over KEY=LO:HI:COUNT] [--json]",
     .summary = "From which speed on the bead circles against the magnet",
     .details = "Runs over the range, each from the scene's start, show where the outcome changes; more runs "
-               "enclose the\n"
-               "lowest speed from which on all circle against the magnet for at least a tenth more.  With "
-               "smooth friction\n"
-               "the border is a special point of the branch of these orbits, which gives its digits.  With dry "
-               "friction\n"
-               "outcomes alternate near the border: the list of all runs shows where.\n",
+               "enclose the lowest\n"
+               "speed from which on all circle against the magnet for at least a tenth more.  With smooth "
+               "friction a special\n"
+               "point of the branch of these orbits gives its digits; with dry friction outcomes alternate "
+               "near the border, and\n"
+               "the list of all runs shows where.\n",
     .options = options,
     .most_operands = 1,
     .perform = perform,

@@ -3,7 +3,7 @@
 
 #define FORMAT(NAME, name, doc) {name, '\0', NULL, doc},
 static const option options[] = {
-    FST_EXPORTS(FORMAT){"key", '\0', "KEY,...",
+    FST_EXPORTS(FORMAT){"quantity", '\0', "KEY,...",
                         "of CSV: only the varied parameters and these keys of festoon run, each with its unit "
                         "(mean_r,std_r,regime)"},
     UNITS_OPTION,
@@ -14,13 +14,15 @@ static const option options[] = {
 /* A table of few columns, in units that people use. */
 static fst_status export_keys(const arguments *given, const char *to, FILE *out, fst_error *error)
 {
-    const char *text = option_value(given, "key"), *keys[KEY_LIMIT];
+    const char *keys[KEY_LIMIT] = {NULL};
     char words[KEYS_SIZE];
     int count = 0;
     fst_shown_units units;
     fst_status status = read_units(given, &units, error);
-    if (status == FST_OK && text)
-        status = read_keys(text, words, keys, &count, error);
+    if (status == FST_OK)
+        status = read_quantities(given, words, keys, KEY_LIMIT, error);
+    while (count < KEY_LIMIT && keys[count])
+        ++count;
     if (status == FST_OK)
         status = fst_sweep_export_keys(operand(given), keys, count, units, to, out, error);
     return status;
@@ -57,9 +59,9 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (count != 1)
         return fail(error, FST_BAD_INPUT, "", "say which: --csv, --json or --hdf5");
     const char *to = option_value(given, "output");
-    const int columns = option_value(given, "key") || option_value(given, "units");
+    const int columns = option_value(given, "quantity") || option_value(given, "units");
     if (columns && !option_value(given, "csv"))
-        return fail(error, FST_BAD_INPUT, "", "--key and --units belong to --csv");
+        return fail(error, FST_BAD_INPUT, "", "--quantity and --units belong to --csv");
     fst_status status = columns ? export_keys(given, to, out, error)
                                 : fst_sweep_export(operand(given), (fst_export_format)chosen, to, out, error);
     if (status == FST_OK && to)
@@ -69,18 +71,15 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command export_command = {
     .name = "export",
-    .synopsis = "FILE.db --csv|--json|--hdf5 [--key KEY,...] [--units UNITS] [-o FILE]",
+    .synopsis = "FILE.db --csv|--json|--hdf5 [-o FILE] [options]",
     .summary = "Print the rows of a sweep in the order of its points",
     .details =
-        "With --key or --units the CSV has the varied parameters and the keys (regime, mean_r, std_r and\n"
-        "mean_alpha_dot unless told) with their units, as in \"mean_r [mm]\", and the status: done, missing "
-        "where\n"
-        "the sweep has not come yet, or why a run failed; without, every column as it is kept.\n"
-        "Each row is compared with its checksum.  Where some are damaged the status is 2, the points that are "
-        "lost "
-        "are named,\n"
-        "and -o FILE has the other rows; the festoon sweep command that made FILE.db computes the lost ones "
-        "again.\n",
+        "With --quantity or --units the CSV has the varied parameters and the keys (regime, mean_r, std_r,\n"
+        "mean_alpha_dot unless told) with their units, as in \"mean_r [mm]\", and the status of each point: "
+        "done,\n"
+        "missing, or why a run failed.  Damaged rows are named, with status 2, and -o FILE has the others; "
+        "the\n"
+        "command of the sweep computes them again.\n",
     .options = options,
     .most_operands = 1,
     .much_output = 1,

@@ -7,22 +7,19 @@
 static const option options[] = {
     SCENE_OPTIONS,
     JSON_OPTION,
-    {"at", '\0', "X,Y",
-     "the field and its gradient where the bead's centre is: in l, or with units as in 10mm,5mm"},
+    {"at", '\0', "X,Y", "the field and its gradient at this place: in l, or with units as in 10mm,5mm"},
     {"height", '\0', "H",
-     "at this height over the magnet's mid-plane (real magnets: reference plane), not the bead's centre's: "
-     "18.7mm, "
-     "or in l"},
+     "in l or with a unit, above the magnet's mid-plane (real magnets: reference plane); otherwise at the "
+     "bead's centre"},
     {"time", '\0', "T",
      "the field at a point after this time (s), of all that makes one, on the laboratory's axes"},
     {"output", 'o', "FIG", "draw the map of the field to FIG.svg, .pdf or .png"},
-    {"csv", '\0', "FILE", "write the map of the field to FILE.csv, which magnet.shape: grid reads back"},
-    {"radius", '\0', "R", "how far from the axis the map of --csv goes along X and Y: 60 mm unless given"},
-    {"spacing", '\0', "D", "from one sample of --csv to the next: 1 mm unless given"},
-    {"map", '\0', FST_WORDS(FST_FIELDS),
+    {"quantity", '\0', FST_WORDS(FST_FIELDS),
      "what the map shows: |B| (the default), a component of B, or the force or the load of a bead"},
+    {"csv", '\0', "FILE", "write the map of the field to FILE.csv, which magnet.shape: grid reads back"},
+    {"radius", '\0', "R", "how far from the axis the map of --csv goes along X and Y (60mm)"},
+    {"spacing", '\0', "D", "from one sample of --csv to the next (1mm)"},
     UNITS_OPTION,
-    QUIET_OPTION,
     {NULL, '\0', NULL, NULL},
 };
 
@@ -266,15 +263,15 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if ((option_value(given, "radius") || option_value(given, "spacing")) && !csv)
         return fail(error, FST_BAD_INPUT, "--csv",
                     "--radius and --spacing are those of a written map: give --csv");
-    if (option_value(given, "map") && !figure)
-        return fail(error, FST_BAD_INPUT, "--map", "it concerns a map: give -o FIG.svg");
+    if (option_value(given, "quantity") && !figure)
+        return fail(error, FST_BAD_INPUT, "--quantity", "it is that of a map: give -o FIG.svg");
     fst_shown_units units;
     int quantity = FST_FIELD_STRENGTH;
     fst_field_options map = fst_default_field_options();
     fst_status status = read_units(given, &units, error);
     if (status == FST_OK)
-        status =
-            read_choice("--map", option_value(given, "map"), "map", FST_WORDS(FST_FIELDS), &quantity, error);
+        status = read_choice("--quantity", option_value(given, "quantity"), "quantity", FST_WORDS(FST_FIELDS),
+                             &quantity, error);
     map.quantity = (fst_field_quantity)quantity;
     if (status == FST_OK)
         status = read_scene(given, operand(given), &params, error);
@@ -296,18 +293,13 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command field_command = {
     .name = "field",
-    .synopsis =
-        "[SCENE.yaml] [--set KEY=VALUE]... [--height H] --at X,Y [--json] | [--map ...] -o FIG.(svg|pdf|png) | "
-        "--csv FILE",
+    .synopsis = "[SCENE.yaml] --at X,Y | -o FIG | --csv FILE [options]",
     .summary = "The magnet's field and its gradient at a point, or drawn as a map",
-    .details =
-        "Positions without a unit are in l (half length of the magnet's lines); they are in the "
-        "magnet's frame, at the height of the\n"
-        "bead's centre; fields in B0. With --units lab or si they are in mT or tesla, where magnet.b0 or "
-        "bead.moment gives B0;\n"
-        "real magnets (magnet.shape: parts) always do. Force and load are those of a bead at rest, its moment "
-        "along B;\n"
-        "--json then has b_tesla and grad_tesla_per_m beside the scaled ones.\n",
+    .details = "Places without a unit are in l (half the length of the magnet's lines), in the magnet's frame; "
+               "fields are in B0,\n"
+               "with --units lab or si in mT or tesla, where magnet.b0 or bead.moment gives B0 (real magnets "
+               "always do); --json\n"
+               "then has both.  Force and load are those of a bead at rest, its moment along B.\n",
     .options = options,
     .most_operands = 1,
     .perform = perform,

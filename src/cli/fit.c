@@ -12,18 +12,16 @@ static const option options[] = {
     {"given", '\0', "KEY=V+-S",
      "what is known otherwise, such as \"magnet.depth=16.2+-0.2 mm\" (again for more keys)"},
     {"output", 'o', "FIG.svg", "draw the points over the model's curves (svg, pdf, png)"},
-    {"compare", '\0', NULL, "fit the other friction law and the other dynamics too, and compare them (AICc)"},
+    {"rivals", '\0', NULL, "fit the other friction law and the other dynamics too, and compare them (AICc)"},
     {"bootstrap", '\0', "N",
      "draw the numbers anew N times, and fit each time: errors from the points themselves"},
-    {"track", '\0', "TRACK.csv", "fit the places of one film instead of a table"},
-    {"drive", '\0', "10.7Hz", "of a track: how often the magnet turned, negative for clockwise"},
-    {"exposure", '\0', "T[+-S]",
-     "of a track: how long a frame was exposed, \"2 ms\", or \"2+-0.5 ms\" to seek it too"},
-    {"fps", '\0', "F", "of a track: frames a second, instead of the file's clock"},
-    {"from", '\0', "FRAME", "of a track: the first frame that is taken, by its own numbers"},
-    {"to", '\0', "FRAME", "of a track: the last one"},
-    {"scale", '\0', "L[+-E]", "of a track: the length of one unit of the file, as 0.123mm or 0.123+-0.001mm"},
-    QUIET_OPTION,
+    {"track", '\0', "TRACK.csv",
+     "fit the places of one film, not a table; --drive, --exposure, --fps, --from, --to and --scale go with "
+     "it"},
+    {"drive", '\0', "F",
+     "how often the magnet turned, as 10.7Hz, with a minus where it turned clockwise in the film"},
+    {"exposure", '\0', "T[+-S]", "how long a frame was exposed, as 2ms, or 2+-0.5ms to seek it too"},
+    TRACK_OPTIONS,
     {NULL, '\0', NULL, NULL},
 };
 
@@ -230,7 +228,7 @@ static fst_status fit_table(const arguments *given, const char *table, const fst
         return status;
     progress_line line;
     const fst_progress progress = {&line, progress_tell};
-    how.rivals = option_value(given, "compare") != NULL;
+    how.rivals = option_value(given, "rivals") != NULL;
     how.curve_points = figure ? 81 : 0;
     how.progress = &progress;
     progress_begin(&line);
@@ -306,7 +304,7 @@ static fst_status read_one_bead(const char *path, const fst_track_options *how, 
 
 static fst_status fit_film(const arguments *given, const fst_params *params, FILE *out, fst_error *error)
 {
-    static const char *const of_tables[] = {"output", "compare", "bootstrap", NULL};
+    static const char *const of_tables[] = {"output", "rivals", "bootstrap", NULL};
     static wishes wanted;
     fst_track track = {0};
     fst_fit fit;
@@ -368,14 +366,12 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command fit_command = {
     .name = "fit",
-    .synopsis = "DATA.csv|--track TRACK.csv [SCENE.yaml] --free KEY,KEY [--given KEY=V+-S]... [options]",
+    .synopsis = "DATA.csv|--track TRACK.csv [SCENE.yaml] --free KEY,KEY [options]",
     .summary = "Find parameters of the model from measured points, with their errors",
-    .details = "The table has a line of column names with units, in any order,\n"
-               "  frequency [Hz],mean_r [mm],mean_r_error [mm],std_r [mm],std_r_error [mm],\n"
-               "  bead_frequency [Hz],bead_frequency_error [Hz]\n"
-               "and optionally frequency_error [Hz]; cells may be empty.  docs/fit.md explains the methods and "
-               "what the\n"
-               "report says.\n",
+    .details =
+        "The table has a line of column names with units, in any order; cells may be empty (docs/fit.md):\n"
+        "  frequency [Hz],mean_r [mm],mean_r_error [mm],std_r [mm],\n"
+        "  std_r_error [mm],bead_frequency [Hz],bead_frequency_error [Hz]\n",
     .options = options,
     .most_operands = 2,
     .has_helpers = 1,

@@ -57,19 +57,17 @@ static void print_wrapped(FILE *out, const char *text, int column, int indent)
     (void)fputc('\n', out);
 }
 
-void print_command_help(FILE *out, const command *shown)
+/* Print the rows of a table that only experts need, or the others. */
+static void print_options(FILE *out, const option *row, int expert)
 {
     enum { OPTION_COLUMN = 31 };
-    const int named = fprintf(out, "usage: festoon %s ", shown->name);
-    print_wrapped(out, shown->synopsis, named, (int)strlen("usage: festoon "));
-    (void)fprintf(out, "\n%s.\n", shown->summary);
-    if (shown->details[0])
-        (void)fprintf(out, "\n%s", shown->details);
-    (void)fprintf(out, "\noptions:\n");
-    for (const option *row = shown->options; row->name; ++row) {
+    for (; row->name; ++row) {
         char words[128];
-        (void)snprintf(words, sizeof words, "%s%c%s--%s %s", row->letter ? "-" : "",
-                       row->letter ? row->letter : ' ', row->letter ? ", " : "", row->name,
+        const int has_letter = row->letter > EXPERT;
+        if ((row->letter == EXPERT) != expert)
+            continue;
+        (void)snprintf(words, sizeof words, "%s%c%s--%s %s", has_letter ? "-" : "",
+                       has_letter ? row->letter : ' ', has_letter ? ", " : "", row->name,
                        row->value ? row->value : "");
         if (strlen(words) > 28)
             (void)fprintf(out, "  %s\n  %-28s ", words, "");
@@ -77,7 +75,24 @@ void print_command_help(FILE *out, const command *shown)
             (void)fprintf(out, "  %-28s ", words);
         print_wrapped(out, row->help, OPTION_COLUMN, OPTION_COLUMN);
     }
-    (void)fprintf(out, "  %-28s %s\n", " --help", "this text");
+}
+
+void print_command_help(FILE *out, const command *shown)
+{
+    const int named = fprintf(out, "usage: festoon %s ", shown->name);
+    print_wrapped(out, shown->synopsis, named, (int)strlen("usage: festoon "));
+    (void)fprintf(out, "\n%s.\n", shown->summary);
+    if (shown->details[0])
+        (void)fprintf(out, "\n%s", shown->details);
+    (void)fputs("\noptions:\n", out);
+    print_options(out, shown->options, 0);
+    print_options(out, common_options, 0);
+    const option *row = shown->options;
+    while (row->name && row->letter != EXPERT)
+        ++row;
+    if (row->name)
+        (void)fputs("\nexpert:\n", out);
+    print_options(out, row, 1);
 }
 
 fst_status unknown_command(const char *name, fst_error *error)

@@ -61,7 +61,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command init_command = {
     .name = "init",
-    .synopsis = "[FILE] [--set KEY=VALUE]... [--world WORLD] [--force]",
+    .synopsis = "[FILE] [--world WORLD] [--force]",
     .summary = "Write a scene with every parameter and a comment on each",
     .details = "FILE is " DEFAULT_FILE " unless given; - writes to standard output.\n",
     .options = options,

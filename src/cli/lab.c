@@ -27,7 +27,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command lab_command = {
     .name = "lab",
-    .synopsis = "[SCENE.yaml] [--set KEY=VALUE]... [--print]",
+    .synopsis = "[SCENE.yaml] [--print]",
     .summary = "Open the lab, a page on which the bead is seen rolling, with a scene",
     .details =
         "The page is festoon-lab.html, which make lab builds: one file that needs no network and no server.\n"

@@ -6,7 +6,6 @@
 static const option options[] = {
     SCENE_OPTIONS,
     JSON_OPTION,
-    QUIET_OPTION,
     {NULL, '\0', NULL, NULL},
 };
 
@@ -145,11 +144,12 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command locked_command = {
     .name = "locked",
-    .synopsis = "[SCENE.yaml] [--set KEY=VALUE]... [--json]",
+    .synopsis = "[SCENE.yaml] [--json]",
     .summary = "Every equilibrium of the turning frame: the bead goes round with the magnet",
     .details =
-        "Vectors are inertial, in components along the magnet's axes.  The list comes from many starts of\n"
-        "Newton's method; docs/inside/orbits.md says why it is believed to be complete.\n",
+        "Vectors are inertial, in components along the magnet's axes.  docs/inside/orbits.md says why the list "
+        "is believed to be\n"
+        "complete.\n",
     .options = options,
     .most_operands = 1,
     .perform = perform,

@@ -5,7 +5,6 @@
 static const option options[] = {
     SCENE_OPTIONS,
     JSON_OPTION,
-    QUIET_OPTION,
     {NULL, '\0', NULL, NULL},
 };
 
@@ -46,11 +45,11 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command lyapunov_command = {
     .name = "lyapunov",
-    .synopsis = "[SCENE.yaml] [--set KEY=VALUE]... [--json]",
+    .synopsis = "[SCENE.yaml] [--json]",
     .summary = "The spectrum of Lyapunov exponents of the motion from the start",
-    .details =
-        "run.discard drive periods are left out, the rest of run.periods is averaged over.  Errors show\n"
-        "what differs between parts of that time; \"converged\" means that every sign is decided.\n",
+    .details = "run.discard drive periods are left out, the rest of run.periods is averaged over.  "
+               "\"Converged\" means that every\n"
+               "sign is decided.\n",
     .options = options,
     .most_operands = 1,
     .perform = perform,

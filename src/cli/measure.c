@@ -8,21 +8,18 @@
 static const option options[] = {
     JSON_OPTION,
     {"output", 'o', "POINTS.csv", "a table of points for festoon fit, a row a track, or a bead"},
-    {"drive", '\0', "10.7Hz",
-     "the magnet's drive, with a minus where it turns clockwise in the film; one for each track: F,F,..."},
+    {"drive", '\0', "F",
+     "how often the magnet turned, as 10.7Hz, with a minus where it turned clockwise in the film; of several "
+     "tracks one "
+     "for each: F,F,..."},
+    {"exposure", '\0', "T", "how long a frame was exposed, as 2ms: what that blurs is corrected"},
+    TRACK_OPTIONS,
+    {"format", '\0', "NAME", "the file's format, instead of what its header says"},
+    {"only", '\0', "NAME", "only this track of several (otherwise the longest, or of track --beads all)"},
     {"figure", '\0', "FIG", "draw path, r against alpha and residuals to FIG.svg, .pdf or .png (of one track)"},
     {"compare", '\0', "SCENE.yaml",
-     "lay the path of this scene, at the track's drive, over the track in the figure"},
-    {"set", '\0', "KEY=VALUE", "override one key of that scene (again for more keys)"},
-    {"fps", '\0', "F", "frames a second, instead of the file's clock"},
-    {"from", '\0', "FRAME", "the first frame that is taken, by the track's own numbers"},
-    {"to", '\0', "FRAME", "the last one"},
-    {"scale", '\0', "0.123mm",
-     "the length of one unit of the file (of a pixel, mostly); 0.123+-0.001mm: with its error"},
-    {"format", '\0', "NAME", "the file's format, instead of what its header says"},
-    {"track", '\0', "NAME", "which track of several (otherwise the longest, or of track --beads all)"},
-    {"exposure", '\0', "2ms", "how long a frame was exposed: what that blurs is corrected"},
-    QUIET_OPTION,
+     "in the figure lay the path of this scene, at the track's drive, over the track"},
+    SCENE_OPTIONS,
     {NULL, '\0', NULL, NULL},
 };
 
@@ -42,7 +39,7 @@ static fst_status read_options(const arguments *given, fst_track_options *how, f
     *how = fst_default_track_options();
     *what = fst_default_measure_options();
     how->format = option_value(given, "format");
-    how->name = option_value(given, "track");
+    how->name = option_value(given, "only");
     const value_option rows[] = {{"fps", FST_UNIT_NUMBER, &how->fps, 0, 0},
                                  {"from", VALUE_WHOLE, &how->from, 0, MOST_FRAMES},
                                  {"to", VALUE_WHOLE, &how->to, 0, MOST_FRAMES},
@@ -235,7 +232,7 @@ static fst_status measure_track(job *j, int index, fst_error *error)
     if (status == FST_OK && understood)
         (void)fprintf(stderr, "%s: %s\n", shown(path, text), understood);
     if (status == FST_OK && count > 1 && option_value(j->given, "figure"))
-        status = fail(error, FST_BAD_INPUT, "--figure", "a figure is of one track: say which by --track");
+        status = fail(error, FST_BAD_INPUT, "--figure", "a figure is of one track: say which by --only");
     if (status == FST_OK) {
         progress_line line;
         const fst_progress progress = {&line, progress_tell};
@@ -304,17 +301,15 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command measure_command = {
     .name = "measure",
-    .synopsis =
-        "TRACK... [--drive 10.7Hz] [--fps F] [--scale 0.123mm] [--format NAME] [--json] [-o POINTS.csv]",
+    .synopsis = "TRACK... [--drive 10.7Hz] [-o POINTS.csv] [options]",
     .summary = "Radius, frequency, festoons and drive of a filmed bead, from its track",
-    .details =
-        "A track is a table or an XML file of any of the programs that follow a bead in a film; its format is\n"
-        "recognised, and what was understood is printed.  Formats: festoon, generic (any table with columns\n"
-        "t [s] or frame, x [mm], y [mm]), tracker, trk, trackpy, trackmate, trackmate-xml, imagej, mtrackj,\n"
-        "dltdv5, dltdv8, blender, trajectory.  The magnet turns counter-clockwise in the film unless --drive "
-        "is\n"
-        "negative.  Film with 120 or 240 frames a second, exposed for 1/500 s or less, ten turns at least.  A\n"
-        "rolling shutter changes <r>, delta r and frequencies by less than 0.3, 1 and 0.01 %.\n",
+    .details = "The format is recognised, and what was understood is printed: festoon, generic (any table with "
+               "columns t [s] or\n"
+               "frame, x [mm], y [mm]), tracker, trk, trackpy, trackmate, trackmate-xml, imagej, mtrackj, "
+               "dltdv5, dltdv8,\n"
+               "blender, trajectory.  Where drive and festoons show that the clock is wrong, it is corrected, "
+               "and a warning says\n"
+               "so.  Film ten turns at least, with 120 or 240 frames a second, exposed for 1/500 s or less.\n",
     .options = options,
     .most_operands = OPERAND_LIMIT,
     .has_helpers = 1,

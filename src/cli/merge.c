@@ -7,7 +7,6 @@
 static const option options[] = {
     {"output", 'o', "FILE.db", "the new database"},
     JSON_OPTION,
-    QUIET_OPTION,
     {NULL, '\0', NULL, NULL},
 };
 
@@ -63,14 +62,11 @@ const command merge_command = {
     .name = "merge",
     .synopsis = "FILE.db... -o ALL.db [--json]",
     .summary = "Join the shards of a sweep, made by sweep --shard I/N, in one database",
-    .details =
-        "The new database is that of one sweep, with the same rows: the sweep command of the shards without "
-        "--shard\n"
-        "goes on with it.  The files are only read, in any order, and may overlap.  Points without a row are\n"
-        "named, and the status is 0 all the same.  Files of other sweeps, or rows of a point that differ: "
-        "status "
-        "2,\n"
-        "and nothing is written.  Damaged rows: status 2, and the others are merged.\n",
+    .details = "The files are only read, in any order, and may overlap; the command of the shards without "
+               "--shard goes on with\n"
+               "the new one.  Points without a row are named.  Files of other sweeps, or rows of a point that "
+               "differ, are refused;\n"
+               "damaged rows are left out, with status 2.\n",
     .options = options,
     .most_operands = OPERAND_LIMIT,
     .perform = perform,

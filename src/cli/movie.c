@@ -14,17 +14,16 @@ static const option options[] = {
     {"turn", '\0', "S", "seconds of film for a turn of the magnet (1)"},
     {"from", '\0', "P", "first drive period shown (the beginning)"},
     {"to", '\0', "P", "last drive period shown (20 after the first; camera: the last)"},
-    {"colour", '\0', "COLUMN", "the column that colours the trail of one bead: slip, n_z, angle, ..."},
+    {"quantity", '\0', "COLUMN", "the column that colours the trail of one bead: slip, n_z, angle, ..."},
     CAMERA_OPTIONS,
     UNITS_OPTION,
-    QUIET_OPTION,
     {NULL, '\0', NULL, NULL},
 };
 
 static fst_status read_film(const arguments *given, fst_film_options *film, fst_error *error)
 {
     *film = fst_default_film_options();
-    film->colour = option_value(given, "colour");
+    film->colour = option_value(given, "quantity");
     const char *size = option_value(given, "size");
     const value_option rows[] = {{"fps", FST_UNIT_NUMBER, &film->fps, 0, 0},
                                  {"turn", FST_UNIT_NUMBER, &film->seconds_per_turn, 0, 0},
@@ -48,7 +47,7 @@ static fst_status check_range(double from, double to, fst_error *error)
 /* Options of one kind of film do not go with the other. */
 static fst_status check_kind(const arguments *given, int camera, fst_error *error)
 {
-    static const char *const drawn[] = {"turn", "colour"};
+    static const char *const drawn[] = {"turn", "quantity"};
     const char *other = camera ? NULL : camera_option(given);
     for (size_t i = 0; i < sizeof drawn / sizeof *drawn && camera && !other; ++i)
         other = option_value(given, drawn[i]) ? drawn[i] : NULL;
@@ -108,10 +107,9 @@ const command movie_command = {
     .name = "movie",
     .synopsis = "FILE.(h5|csv) -o FILM.(mp4|gif)|FOLDER [--camera] [options]",
     .summary = "Make a film of a trajectory that run -o or run --csv wrote",
-    .details =
-        "With --camera the film is gray and as quick as the motion: exposure, noise, uneven light, tilt,\n"
-        "rolling shutter and compression are those of a camera, and FILM.truth.csv tells where each bead was.\n"
-        "It is what festoon track can be tried on.\n",
+    .details = "With --camera the film is gray, as quick as the motion, and has what a camera adds; "
+               "FILM.truth.csv tells where\n"
+               "each bead was.  It is what festoon track can be tried on.\n",
     .options = options,
     .most_operands = 1,
     .has_helpers = 1,

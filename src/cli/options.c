@@ -6,21 +6,66 @@
 
 #include "cli/command.h"
 
-/* The row of the table for "--name" (length counts the name alone) or for "-o". */
-static const option *find_long(const option *table, const char *name, size_t length)
+const option common_options[] = {
+    {"quiet", '\0', NULL, "no progress on standard error"},
+    {"help", 'h', NULL, "the help of the command"},
+    {NULL, '\0', NULL, NULL},
+};
+
+/* The names that options had in the version before.  They are taken until the next one, with a sentence; what has no
+ * new name is left aside. */
+static const struct {
+    const char *command, *old, *now;
+} renamed[] = {
+    {"plot", "key", "quantity"},   {"plot", "colour", "quantity"},  {"plot", "observable", "quantity"},
+    {"export", "key", "quantity"}, {"movie", "colour", "quantity"}, {"field", "map", "quantity"},
+    {"plot", "at", "only"},        {"measure", "track", "only"},    {"fit", "compare", "rivals"},
+    {"run", "fps", "sample-rate"}, {"track", "picture", "figure"},  {"plot", "arrows", ""},
+};
+
+static const option gone = {"", '\0', NULL, NULL};
+
+static int is_called(const char *word, const char *name, size_t length)
+{
+    return strlen(word) == length && memcmp(word, name, length) == 0;
+}
+
+static const option *find_in(const option *table, const char *name, size_t length)
 {
     for (; table->name; ++table)
-        if (strlen(table->name) == length && memcmp(table->name, name, length) == 0)
+        if (is_called(table->name, name, length))
             return table;
     return NULL;
+}
+
+/* The row of a command for "--name", which may be its old name (length counts the name alone), or for "-o". */
+static const option *find_long(const command *of, const char *name, size_t length)
+{
+    const option *row = find_in(of->options, name, length);
+    if (!row)
+        row = find_in(common_options, name, length);
+    for (size_t i = 0; !row && i < sizeof renamed / sizeof *renamed; ++i)
+        if (strcmp(renamed[i].command, of->name) == 0 && is_called(renamed[i].old, name, length))
+            row = *renamed[i].now ? find_in(of->options, renamed[i].now, strlen(renamed[i].now)) : &gone;
+    return row;
 }
 
 static const option *find_letter(const option *table, char letter)
 {
     for (; table->name; ++table)
-        if (table->letter && table->letter == letter)
+        if (table->letter > EXPERT && table->letter == letter)
             return table;
     return NULL;
+}
+
+/* Say that an option has another name now, or none. */
+static void tell_of_new_name(const command *of, const char *old, size_t length, const option *row)
+{
+    (void)fprintf(stderr, "festoon %s: --%.*s ", of->name, (int)length, old);
+    if (row == &gone)
+        (void)fputs("has no effect any more, and is refused from the next version on\n", stderr);
+    else
+        (void)fprintf(stderr, "is now --%s; the old name goes with the next version\n", row->name);
 }
 
 /* The parameter that has this name without its group: who types --frequency means drive.frequency. */
@@ -32,31 +77,36 @@ static const char *parameter_named(const char *name)
     return NULL;
 }
 
-static fst_status unknown_option(const option *table, const char *word, fst_error *error)
+static void list_names(const option *table, char *names, size_t size)
 {
-    char names[1024] = "--help", suggestion[FST_SUGGESTION_SIZE];
+    for (; table->name; ++table) {
+        const size_t used = strlen(names);
+        (void)snprintf(names + used, size - used, "%s--%s", used ? "|" : "", table->name);
+    }
+}
+
+static fst_status unknown_option(const command *of, const char *word, fst_error *error)
+{
+    char names[1024] = "", suggestion[FST_SUGGESTION_SIZE];
     char written[64];
     (void)snprintf(written, sizeof written, "%.*s", (int)strcspn(word, "="), word);
-    const char *meant = word[1] == '-' && find_long(table, "set", 3) ? parameter_named(written + 2) : NULL;
+    const char *meant = word[1] == '-' && find_long(of, "set", 3) ? parameter_named(written + 2) : NULL;
     if (meant)
         return fail(error, FST_BAD_INPUT, "", "unknown option %s; a parameter is set by --set %s=VALUE",
                     written, meant);
-    for (; table->name; ++table) {
-        size_t used = strlen(names);
-        (void)snprintf(names + used, sizeof names - used, "|--%s", table->name);
-    }
+    list_names(common_options, names, sizeof names);
+    list_names(of->options, names, sizeof names);
     return fail(error, FST_BAD_INPUT, "", "unknown option %s; %s", written,
                 fst_suggest_name(written, names, suggestion));
 }
 
-/* Whether `word` is an option of the table: then it is not the value of another one. */
-static int is_option(const option *table, const char *word)
+const option *find_option(const command *of, const char *word)
 {
     if (word[0] != '-')
-        return 0;
+        return NULL;
     if (word[1] == '-')
-        return find_long(table, word + 2, strcspn(word + 2, "=")) != NULL;
-    return word[1] && !word[2] && find_letter(table, word[1]) != NULL;
+        return find_long(of, word + 2, strcspn(word + 2, "="));
+    return word[1] && !word[2] ? find_letter(of->options, word[1]) : NULL;
 }
 
 static fst_status keep_option(arguments *given, const option *row, const char *value, fst_error *error)
@@ -73,23 +123,27 @@ static fst_status keep_option(arguments *given, const option *row, const char *v
 
 /* Read the option words[*at], whose value is in the same word or in the next one; moves *at to its
  * last word. */
-static fst_status read_option(const option *table, int count, char **words, int *at, arguments *given,
+static fst_status read_option(const command *of, int count, char **words, int *at, arguments *given,
                               fst_error *error)
 {
     const char *word = words[*at], *value = NULL;
     const option *row;
     if (word[1] == '-') {
         size_t length = strcspn(word + 2, "=");
-        row = find_long(table, word + 2, length);
+        row = find_long(of, word + 2, length);
+        if (row && !is_called(row->name, word + 2, length))
+            tell_of_new_name(of, word + 2, length, row);
         if (word[2 + length] == '=')
             value = word + 2 + length + 1;
     } else {
-        row = find_letter(table, word[1]);
+        row = find_letter(of->options, word[1]);
         if (word[2])
             value = word + 2;
     }
     if (!row)
-        return unknown_option(table, word, error);
+        return unknown_option(of, word, error);
+    if (row == &gone)
+        return FST_OK;
     if (!row->value) {
         if (value)
             return fail(error, FST_BAD_INPUT, "", "--%s takes no value", row->name);
@@ -99,15 +153,14 @@ static fst_status read_option(const option *table, int count, char **words, int 
         if (*at + 1 == count)
             return fail(error, FST_BAD_INPUT, "", "--%s needs a value: %s", row->name, row->value);
         value = words[++*at];
-        if (is_option(table, value))
+        if (find_option(of, value)) /* then it is no value */
             return fail(error, FST_BAD_INPUT, "", "--%s needs a value (%s), but %s follows", row->name,
                         row->value, value);
     }
     return keep_option(given, row, value, error);
 }
 
-fst_status read_arguments(const option *table, int most_operands, int count, char **words, arguments *given,
-                          fst_error *error)
+fst_status read_arguments(const command *of, int count, char **words, arguments *given, fst_error *error)
 {
     given->option_count = 0;
     given->operand_count = 0;
@@ -118,8 +171,8 @@ fst_status read_arguments(const option *table, int most_operands, int count, cha
         if (!only_operands && strcmp(word, "--") == 0)
             only_operands = 1;
         else if (!only_operands && word[0] == '-' && word[1])
-            status = read_option(table, count, words, &at, given, error);
-        else if (given->operand_count < most_operands)
+            status = read_option(of, count, words, &at, given, error);
+        else if (given->operand_count < of->most_operands)
             given->operands[given->operand_count++] = word;
         else
             status = fail(error, FST_BAD_INPUT, "", "unexpected argument \"%.60s\"", word);

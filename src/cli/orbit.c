@@ -9,7 +9,6 @@ static const option options[] = {
     JSON_OPTION,
     {"festoons", '\0', "N",
      "find the drive at which a stable pattern closes in the laboratory after N festoons"},
-    QUIET_OPTION,
     {NULL, '\0', NULL, NULL},
 };
 
@@ -141,12 +140,11 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command orbit_command = {
     .name = "orbit",
-    .synopsis = "[SCENE.yaml] [--set KEY=VALUE]... [--festoons N] [--json]",
+    .synopsis = "[SCENE.yaml] [--festoons N] [--json]",
     .summary = "The periodic orbit that the start leads to, exactly, with its multipliers",
-    .details =
-        "The bead is followed until its returns come close; Newton's method finds the orbit.  With --festoons\n"
-        "the drive is solved for: the lowest omega at which a stable pattern closes after N festoons, and the\n"
-        "others.  docs/inside/orbits.md explains how.\n",
+    .details = "With --festoons the drive is solved for: the lowest omega at which a stable pattern closes "
+               "after N festoons, and\n"
+               "the others.  docs/inside/orbits.md explains how.\n",
     .options = options,
     .most_operands = 1,
     .perform = perform,

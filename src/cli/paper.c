@@ -8,16 +8,15 @@ static const option options[] = {
     {"statements", '\0', NULL,
      "compute nothing: print the paper's statements and what decides each verdict (Markdown)"},
     {"only", '\0', "ID", "compute one statement alone and print it as JSON; paper.json has the names"},
-    {"dry-maps", '\0', NULL,
+    {"dry-maps", EXPERT, NULL,
      "compute only the large maps with dry friction, into DIR (many minutes; the same command goes on)"},
-    {"starts", '\0', "N", "starts of the search for a paramagnetic bead that counter-rotates (240)"},
-    QUIET_OPTION,
+    {"starts", EXPERT, "N", "starts of the search for a paramagnetic bead that counter-rotates (240)"},
     {NULL, '\0', NULL, NULL},
 };
 
 const command paper_command = {
     .name = "paper",
-    .synopsis = "-o DIR [--reduced] [--films] [--starts N] | --dry-maps -o DIR | --only ID | --statements",
+    .synopsis = "-o DIR [--reduced] [--films] | --only ID | --statements",
     .summary = "Compute what the paper shows, and report it beside the published numbers",
     .details = "",
     .options = options,

@@ -9,53 +9,29 @@
 static const option options[] = {
     {"output", 'o', "FIG", "the figure: FIG.svg, .pdf or .png; script and data are left beside it"},
     {"kind", '\0', FST_WORDS(FST_FIGURES),
-     "of a trajectory: path (of the bead in the laboratory), local-n (of the moment in the local frame),\n"
-     "radius-field (r and |B| against Phi), time (columns against time), section (Poincare section: one\n"
-     "column against another where Phi passes 90 degrees), ramp (columns against the drive of a ramp, for "
-     "which\n"
-     "it is the kind without this option); of several beads: path or groups (distances, contacts and loads);\n"
-     "of one in a world: path or lag (of the moment behind the field, the portrait of a lock); of a sweep "
-     "over\n"
-     "two axes: curves (one for each value of an axis; where it has at most seven, without this option) or "
-     "map"},
-    {"key", '\0', "KEY,...",
-     "of a sweep: the keys of festoon run to draw (regime: a map of regimes); of the kinds time, section and\n"
-     "ramp: the columns of the trajectory (r,n_z)"},
-    {"at", '\0', "KEY=VALUE", "of a sweep: only the points where this axis has this value; once for each axis"},
+     "of a trajectory: path, local-n (the moment in the local frame), radius-field (r and |B| against Phi), "
+     "time, "
+     "section (where Phi passes 90 degrees) or ramp; of several beads path or groups, in a world path or lag; "
+     "of a "
+     "sweep curves or map"},
+    {"quantity", '\0', "NAME,...",
+     "what is drawn: of a trajectory the column that colours the path, or the columns of time, section and "
+     "ramp; of a "
+     "sweep keys of festoon run (regime: a map of regimes); of a branch mean_r, festoons, multipliers, ..."},
+    {"only", '\0', "KEY=VALUE",
+     "of a sweep: only the points where this axis has this value; once for each axis"},
     UNITS_OPTION,
-    {"colour", '\0', "COLUMN", "the column that colours the path: n_z, slip, angle, ..."},
-    {"arrows", '\0', NULL, "draw arrows of the horizontal moment"},
-    {"no-arrows", '\0', NULL, "draw no arrows"},
+    {"no-arrows", '\0', NULL, "draw no arrows of the horizontal moment along the path"},
     {"frame", '\0', "lab|magnet", "from where the path is seen: the laboratory, or the turning magnet"},
-    {"inset", '\0', NULL, "draw the moment's path in the local frame in the middle of the bead's path"},
+    {"inset", EXPERT, NULL, "draw the moment's path in the local frame in the middle of the bead's path"},
     {"from", '\0', "P", "first drive period shown"},
     {"to", '\0', "P", "last drive period shown"},
     {"zoom", '\0', "X0,X1,Y0,Y1", "the part of the plate shown, in mm"},
-    {"observable", '\0', "NAME",
-     "of a branch: mean_r, mean_alpha_dot, mean_nz, festoons, min_r, period, phi_deg, slip, multipliers; of "
-     "curves\n"
-     "over two parameters: second; of places where a bead floats: height_mm, tilt_deg, circle_mm, gap_mm"},
-    {"runs", '\0', "FILE", "of a branch: draw dots over it, from documents of festoon run --json"},
     {"points", '\0', "DATA.csv",
-     "of a sweep or a branch over the drive: lay measured points with errors over it, and tell chi^2"},
+     "lay measured points over a sweep or a branch over the drive, with their errors, and tell chi^2"},
+    {"runs", EXPERT, "FILE", "lay runs over a branch as dots, from documents of festoon run --json"},
     {NULL, '\0', NULL, NULL},
 };
-
-static fst_status read_colour(const char *word, const char **colour, fst_error *error)
-{
-    char names[1024] = "", suggestion[FST_SUGGESTION_SIZE];
-    for (int i = 0; i < fst_column_count(); ++i) {
-        const char *name = fst_column_at(i)->name;
-        if (strcmp(name, word) == 0) {
-            *colour = name;
-            return FST_OK;
-        }
-        size_t used = strlen(names);
-        (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "", name);
-    }
-    return fail(error, FST_BAD_INPUT, "--colour", "unknown column \"%.60s\"; %s", word,
-                fst_suggest_name(word, names, suggestion));
-}
 
 /* Refuse the options that say nothing of such a file: `words` has those that do, a|b|c. */
 static fst_status refuse_others(const arguments *given, const char *words, const char *what, fst_error *error)
@@ -78,25 +54,21 @@ static fst_status refuse_others(const arguments *given, const char *words, const
 static fst_status read_figure(const arguments *given, fst_figure_options *figure, fst_error *error)
 {
     *figure = fst_default_figure_options();
-    const char *kind = option_value(given, "kind"), *colour = option_value(given, "colour");
+    const char *zoom = option_value(given, "zoom"), *frame = option_value(given, "frame");
     const value_option rows[] = {{"from", FST_UNIT_NUMBER, &figure->from, 0, 0},
                                  {"to", FST_UNIT_NUMBER, &figure->to, 0, 0}};
-    const char *zoom = option_value(given, "zoom"), *frame = option_value(given, "frame");
-    int with = option_value(given, "arrows") != NULL, without = option_value(given, "no-arrows") != NULL;
-    if (with && without)
-        return fail(error, FST_BAD_INPUT, "", "--arrows and --no-arrows contradict each other");
-    if (with || without)
-        figure->arrows = with;
+    figure->arrows = option_value(given, "no-arrows") == NULL;
     figure->inset = option_value(given, "inset") != NULL;
     int place = (int)figure->kind;
-    fst_status status = read_choice("--kind", kind, "kind", FST_WORDS(FST_FIGURES), &place, error);
+    fst_status status =
+        read_choice("--kind", option_value(given, "kind"), "kind", FST_WORDS(FST_FIGURES), &place, error);
     figure->kind = (fst_figure_kind)place;
     if (status == FST_OK && figure->kind != FST_FIGURE_PATH)
-        status = refuse_others(given, "kind|key|units|colour|from|to", "this kind of figure", error);
+        status = refuse_others(given, "kind|quantity|units|from|to", "this kind of figure", error);
+    if (status == FST_OK)
+        status = read_units(given, &figure->units, error);
     if (status == FST_OK)
         status = read_choice("--frame", frame, "frame", "lab|magnet", &figure->from_magnet, error);
-    if (status == FST_OK && colour)
-        status = read_colour(colour, &figure->colour, error);
     if (status == FST_OK)
         status = read_values(given, rows, sizeof rows / sizeof *rows, error);
     if (status == FST_OK && isfinite(figure->from) && isfinite(figure->to) && !(figure->from < figure->to))
@@ -108,32 +80,34 @@ static fst_status read_figure(const arguments *given, fst_figure_options *figure
     return status;
 }
 
-/* --key and --units of a trajectory. */
+/* --quantity of a trajectory, whose kind of figure is known: columns against something, or one that colours the path. */
 static fst_status read_columns(const arguments *given, fst_figure_options *figure, char words[KEYS_SIZE],
                                fst_error *error)
 {
-    const char *keys[KEY_LIMIT], *text = option_value(given, "key");
-    int count = 0;
-    fst_status status = read_units(given, &figure->units, error);
-    if (status == FST_OK && text)
-        status = read_keys(text, words, keys, &count, error);
-    if (status == FST_OK && count > FST_FIGURE_KEYS)
-        status = fail(error, FST_BAD_INPUT, "--key", "a figure shows at most %d columns", FST_FIGURE_KEYS);
-    for (int i = 0; i < count && status == FST_OK; ++i)
-        figure->keys[i] = keys[i];
+    const int against = figure->kind == FST_FIGURE_TIME || figure->kind == FST_FIGURE_SECTION ||
+                        figure->kind == FST_FIGURE_RAMP;
+    const char *columns[FST_FIGURE_KEYS] = {NULL};
+    const fst_status status = read_quantities(given, words, columns, against ? FST_FIGURE_KEYS : 1, error);
+    for (int i = 0; i < FST_FIGURE_KEYS && against; ++i)
+        figure->keys[i] = columns[i];
+    if (!against)
+        figure->colour = columns[0];
     return status;
 }
 
 static fst_status plot_branch(const arguments *given, const char *path, const char *to, fst_error *error)
 {
     fst_branch branch;
-    const char *observable = option_value(given, "observable"), *runs = option_value(given, "runs");
+    const char *observable = NULL, *runs = option_value(given, "runs");
+    char words[KEYS_SIZE];
     double *dots = NULL;
     size_t dot_count = 0;
     fst_shown_units units;
-    fst_status status = refuse_others(given, "observable|runs|units|points", "a branch", error);
+    fst_status status = refuse_others(given, "quantity|runs|units|points", "a branch", error);
     if (status == FST_OK)
         status = read_units(given, &units, error);
+    if (status == FST_OK)
+        status = read_quantities(given, words, &observable, 1, error);
     if (status == FST_OK)
         status = fst_branch_read(path, &branch, error);
     if (status != FST_OK)
@@ -151,30 +125,25 @@ static fst_status plot_branch(const arguments *given, const char *path, const ch
     return status;
 }
 
-/* --kind, --key, --units and every --at of a sweep. */
+/* --kind, --quantity, --units and every --only of a sweep. */
 static fst_status read_sweep_figure(const arguments *given, fst_sweep_figure *figure, char words[KEYS_SIZE],
                                     fst_error *error)
 {
-    const char *text = option_value(given, "key"), *keys[KEY_LIMIT];
-    int count = 0, place = FST_FIGURE_PATH, at = 0;
+    int place = FST_FIGURE_PATH, at = 0;
     *figure = (fst_sweep_figure){.kind = FST_FIGURE_PATH};
     fst_status status =
         read_choice("--kind", option_value(given, "kind"), "kind", FST_WORDS(FST_FIGURES), &place, error);
     figure->kind = (fst_figure_kind)place;
     if (status == FST_OK)
         status = read_units(given, &figure->units, error);
-    if (status == FST_OK && text)
-        status = read_keys(text, words, keys, &count, error);
-    if (status == FST_OK && count > FST_SWEEP_FIGURE_KEYS)
-        status = fail(error, FST_BAD_INPUT, "--key", "a figure shows at most %d keys", FST_SWEEP_FIGURE_KEYS);
-    for (int i = 0; i < count && status == FST_OK; ++i)
-        figure->keys[i] = keys[i];
+    if (status == FST_OK)
+        status = read_quantities(given, words, figure->keys, FST_SWEEP_FIGURE_KEYS, error);
     for (int i = 0; i < given->option_count && status == FST_OK; ++i)
-        if (strcmp(given->options[i].row->name, "at") == 0) {
+        if (strcmp(given->options[i].row->name, "only") == 0) {
             if (at < FST_AXIS_LIMIT)
                 figure->at[at++] = given->options[i].value;
             else
-                status = fail(error, FST_BAD_INPUT, "--at", "a sweep has at most %d axes", FST_AXIS_LIMIT);
+                status = fail(error, FST_BAD_INPUT, "--only", "a sweep has at most %d axes", FST_AXIS_LIMIT);
         }
     return status;
 }
@@ -184,7 +153,7 @@ static fst_status plot_sweep(const arguments *given, const char *path, const cha
 {
     fst_sweep_figure figure;
     char words[KEYS_SIZE];
-    fst_status status = refuse_others(given, "kind|key|at|units|points", "a sweep", error);
+    fst_status status = refuse_others(given, "kind|quantity|only|units|points", "a sweep", error);
     if (status == FST_OK)
         status = read_sweep_figure(given, &figure, words, error);
     if (status == FST_OK)
@@ -240,8 +209,11 @@ static fst_status plot_several(const arguments *given, const char *to, fst_error
     fst_sweep_figure sweeps;
     fst_figure_options trajectories = fst_default_figure_options();
     char words[KEYS_SIZE];
+    int branches = 0;
+    for (int i = 0; i < given->operand_count; ++i)
+        branches += ends_in(given->operands[i], ".json");
     fst_status status =
-        refuse_others(given, "kind|key|at|observable|units|frame|from|to|zoom", "several files", error);
+        refuse_others(given, "kind|quantity|only|units|frame|from|to|zoom", "several files", error);
     if (status == FST_OK)
         status = read_sweep_figure(given, &sweeps, words, error);
     if (status == FST_OK && sweeps.kind != FST_FIGURE_CURVES && sweeps.kind != FST_FIGURE_MAP)
@@ -252,7 +224,7 @@ static fst_status plot_several(const arguments *given, const char *to, fst_error
         trajectories.keys[i] = sweeps.keys[i];
     if (status == FST_OK)
         status = fst_figure_over(given->operands, given->operand_count, &trajectories, &sweeps,
-                                 option_value(given, "observable"), to, error);
+                                 branches ? sweeps.keys[0] : NULL, to, error);
     if (status == FST_OK)
         tell_written(to, "");
     return status;
@@ -280,12 +252,10 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (status == FST_OK && is_sweep)
         return plot_sweep(given, path, to, error);
     if (status == FST_OK)
-        status = refuse_others(given, "kind|key|units|colour|arrows|no-arrows|inset|frame|from|to|zoom",
-                               "a trajectory", error);
+        status = refuse_others(given, "kind|quantity|units|no-arrows|inset|frame|from|to|zoom", "a trajectory",
+                               error);
     if (status == FST_OK)
         status = read_figure(given, &figure, error);
-    if (status == FST_OK)
-        status = read_columns(given, &figure, words, error);
     if (status == FST_OK)
         status = fst_trajectory_has_beads(path, &has_beads, error);
     if (status == FST_OK && has_beads)
@@ -294,10 +264,11 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         status = fst_trajectory_read(path, &table, error);
     if (status != FST_OK)
         return status;
-    if (!option_value(given, "kind") && !option_value(given, "arrows") && !figure.colour && !figure.inset &&
-        isnan(figure.zoom[0]) && !option_value(given, "frame"))
+    if (!option_value(given, "kind") && !figure.inset && isnan(figure.zoom[0]) && !option_value(given, "frame"))
         figure.kind = fst_figure_kind_of(&table);
-    status = fst_figure_trajectory(&table, to, &figure, error);
+    status = read_columns(given, &figure, words, error);
+    if (status == FST_OK)
+        status = fst_figure_trajectory(&table, to, &figure, error);
     if (status == FST_OK)
         tell_written(to, table.complete ? "" : " (of an interrupted run)");
     fst_table_free(&table);
@@ -309,7 +280,9 @@ const command plot_command = {
     .synopsis = "FILE.(h5|csv|json|db)... -o FIG.(svg|pdf|png) [options]",
     .summary =
         "Draw a trajectory of run, a branch of branch -o, or the rows of a sweep; or several over each other",
-    .details = "",
+    .details = "  festoon plot run.h5 -o f.svg                           the path\n"
+               "  festoon plot run.h5 -o f.svg --kind time --quantity r  radius\n"
+               "  festoon plot map.db -o f.svg --quantity mean_r         a sweep\n",
     .options = options,
     .most_operands = FST_CHARTS_OVER,
     .has_helpers = 1,

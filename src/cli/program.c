@@ -53,8 +53,7 @@ fst_status perform_command(const command *wanted, int count, char **words, FILE 
     arguments given;
     fst_field_map *map = NULL;
     fst_bead_params *beads = NULL;
-    fst_status status =
-        read_arguments(wanted->options, wanted->most_operands, count - 1, words + 1, &given, error);
+    fst_status status = read_arguments(wanted, count - 1, words + 1, &given, error);
     if (status == FST_OK && wanted->program)
         status = become(wanted->program, words, error);
     if (status != FST_OK)

@@ -15,23 +15,17 @@ static const option options[] = {
     JSON_OPTION,
     {"output", 'o', "FILE", "write the trajectory to FILE.h5 (HDF5) or FILE.csv"},
     {"csv", '\0', "FILE", "write the trajectory to FILE.csv too"},
-    {"units", '\0', FST_WORDS(FST_SHOWN),
-     "the units of --csv (or of -o FILE.csv alone): scaled (l, 1/gamma, B0), which festoon plot reads; or, "
-     "for\n"
-     "other programs, those of the laboratory (mm, s, mm/s, mT where B0 is known, mN, mW), or SI. The report "
-     "too\n"
-     "is in tesla, newtons and watts with si; --json with lab or si has SI beside the scaled numbers"},
-    {"fps", '\0', "F",
-     "samples of the trajectory as a camera of F frames a second takes them, not run.samples a turn"},
+    UNITS_OPTION,
+    {"sample-rate", '\0', "F",
+     "samples of the trajectory a second, as a camera takes them, instead of run.samples a turn"},
     {"ramp", '\0', "FROM:TO",
      "slow ramp of the drive after the discard: 7:20 or 420rpm:1200rpm, or omega=0.2:0.4"},
     {"ramp-points", '\0', "N", "pieces of the ramp over which means are taken (64)"},
     {"ramp-wait", '\0', "TURNS",
      "longest wait half way through each piece, in turns, for the motion to settle (1000; 0: a steady ramp)"},
-    {"ramp-disturbance", '\0', "SIZE",
+    {"ramp-disturbance", EXPERT, "SIZE",
      "scaled disturbance of the velocities when a wait begins, so that the motion leaves unstable states "
      "(1e-6)"},
-    QUIET_OPTION,
     {NULL, '\0', NULL, NULL},
 };
 
@@ -201,7 +195,7 @@ static fst_status run_into(const arguments *given, const fst_params *params, run
     if (status == FST_OK)
         status = read_of_ramp(given, "ramp-disturbance", 1e-2, &run.ramp_disturbance, error);
     if (status == FST_OK)
-        status = read_fps(given, params->friction_gamma, &run.sample_spacing, error);
+        status = read_sample_rate(given, params->friction_gamma, &run.sample_spacing, error);
     if (status == FST_OK)
         status = open_files(given, params, outputs, error);
     if (status == FST_OK) {
@@ -237,15 +231,12 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command run_command = {
     .name = "run",
-    .synopsis =
-        "[SCENE.yaml] [--set KEY=VALUE]... [--json] [-o FILE.h5] [--csv FILE.csv] [--units lab] [--fps F] "
-        "[--ramp FROM:TO]",
+    .synopsis = "[SCENE.yaml] [-o FILE.h5] [--json] [options]",
     .summary = "Simulate the bead and describe its motion",
-    .details =
-        "The means are over whole returns of the motion after run.discard drive periods.  A trajectory has\n"
-        "run.samples rows in each drive period; festoon plot draws it.  A scene may list several beads "
-        "(beads:),\n"
-        "each with what it says of bead and start.\n",
+    .details = "The means are over whole returns of the motion after run.discard drive periods.  A trajectory "
+               "has run.samples\n"
+               "rows in each drive period; festoon plot draws it, in scaled units.  A scene may list several "
+               "beads (beads:).\n",
     .options = options,
     .most_operands = 1,
     .perform = perform,

@@ -11,19 +11,21 @@ static int is_csv(const char *path)
     return length > 4 && strcmp(path + length - 4, ".csv") == 0;
 }
 
-fst_status read_fps(const arguments *given, double gamma, double *spacing, fst_error *error)
+fst_status read_sample_rate(const arguments *given, double gamma, double *spacing, fst_error *error)
 {
-    const char *text = option_value(given, "fps");
-    double fps;
+    const char *text = option_value(given, "sample-rate");
+    double rate;
     if (!text)
         return FST_OK;
     if (!option_value(given, "output") && !option_value(given, "csv"))
-        return fail(error, FST_BAD_INPUT, "--fps", "it concerns a trajectory: give -o FILE or --csv FILE");
-    fst_status status = read_numbers("--fps", text, &fps, 1, error);
-    if (status == FST_OK && !(fps >= 0.01 && fps <= 1e7))
-        status = fail(error, FST_BAD_INPUT, "--fps", "\"%.40s\" must be a number from 0.01 to 1e7", text);
+        return fail(error, FST_BAD_INPUT, "--sample-rate",
+                    "it concerns a trajectory: give -o FILE or --csv FILE");
+    fst_status status = read_numbers("--sample-rate", text, &rate, 1, error);
+    if (status == FST_OK && !(rate >= 0.01 && rate <= 1e7))
+        status =
+            fail(error, FST_BAD_INPUT, "--sample-rate", "\"%.40s\" must be a number from 0.01 to 1e7", text);
     if (status == FST_OK)
-        *spacing = gamma / fps;
+        *spacing = gamma / rate;
     return status;
 }
 
@@ -60,7 +62,7 @@ fst_status open_bead_files(const arguments *given, const fst_params *scene, bead
     *to = (bead_outputs){{NULL, NULL}, {NULL, NULL}};
     fst_status status = read_paths(given, to->paths, units, error);
     if (status == FST_OK)
-        status = read_fps(given, scene->friction_gamma, &options->sample_spacing, error);
+        status = read_sample_rate(given, scene->friction_gamma, &options->sample_spacing, error);
     for (int i = 0; i < 2 && status == FST_OK; ++i)
         if (to->paths[i])
             status = fst_beads_trajectory_create(to->paths[i], scene, units[i], &to->files[i], error);

@@ -20,12 +20,15 @@ static void print_limits(FILE *out, const fst_param_info *info)
                       accepted[0] ? fst_unit_name(info->unit) : "", accepted[0] ? "; units: " : "", accepted);
 }
 
-static void print_table(FILE *out)
+/* The keys that only experts need, or the others. */
+static void print_table(FILE *out, int expert)
 {
     const fst_params defaults = fst_default_params();
     for (int i = 0; i < fst_param_count(); ++i) {
         const fst_param_info *info = fst_param_at(i);
         char value[64];
+        if ((fst_name_place(info->key, FST_EXPERT_KEYS) >= 0) != expert)
+            continue;
         (void)fst_params_get(&defaults, i, value, sizeof value);
         int with_unit = value[0] && fst_unit_accepted(info->unit)[0];
         (void)fprintf(out, "%-20s %s%s%s\n", info->key, value[0] ? value : "(not given)", with_unit ? " " : "",
@@ -87,9 +90,11 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     if (option_value(given, "json"))
         return print_and_free(fst_schema_json(), out, error);
-    print_table(out);
+    print_table(out, 0);
     print_part(out);
     print_lists(out);
+    (void)fputs("\nExpert:\n", out);
+    print_table(out, 1);
     return FST_OK;
 }
 

@@ -22,16 +22,15 @@ static const option options[] = {
     {"levitation", '\0', NULL,
      "rows tell where the bead floats below and above the magnet (festoon locked), not what a run does"},
     {"threads", '\0', "N", "number of threads (as many as this process has processors)"},
-    {"seed", '\0', "N", "seed of the random values (1)"},
-    {"portable", '\0', NULL,
+    SEED_OPTION,
+    {"portable", EXPERT, NULL,
      "as --arithmetic portable: the bits of festoon run, the same on every machine; slower"},
-    {"arithmetic", '\0', FST_WORDS(FST_ARITHMETICS),
+    {"arithmetic", EXPERT, FST_WORDS(FST_ARITHMETICS),
      "kind of arithmetic (the fastest that this processor has)"},
-    {"lanes", '\0', "N",
+    {"lanes", EXPERT, "N",
      "runs side by side on a thread: 1, 4 or 8 (what suits the processor); no row depends on it"},
-    {"checkpoint", '\0', "SECONDS",
+    {"checkpoint", EXPERT, "SECONDS",
      "save the state of a run after so many seconds of work on it; a kill costs no more of it (3)"},
-    QUIET_OPTION,
     {NULL, '\0', NULL, NULL},
 };
 
@@ -287,27 +286,19 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command sweep_command = {
     .name = "sweep",
-    .synopsis = "[SCENE.yaml] --over KEY=LO:HI:COUNT [--over ...] -o FILE.db [options]",
+    .synopsis = "[SCENE.yaml] --over KEY=LO:HI:COUNT... -o FILE.db [options]",
     .summary = "Run every point of a grid into a database, and go on where it stopped",
-    .details =
-        "Both ends of LO:HI are included, and values may carry units: --over drive.frequency=1Hz:120Hz:240.\n"
-        "Several --over multiply, the last one running fastest; random ones are drawn together.  Each point "
-        "gets\n"
-        "one row with the keys of festoon run; runs that fail have rows too.  Killed or interrupted (Ctrl-C, "
-        "status\n"
-        "130) at any moment, the same command goes on; docs/sweeps.md tells what a kill can cost.  One command "
-        "at a\n"
-        "time works on a FILE.db (status 1 for the second).  Under mpirun -n N or srun --mpi=pmix the points "
-        "are\n"
-        "shared between processes; interrupted, mpirun has a status of its own, and what was committed stays "
-        "all\n"
-        "the same.  --refine N computes the boundaries of a map and leaves out what lies between points that "
-        "agree;\n"
-        "what is smaller than 2^N points may be missed.  Another N goes on with the same file.  Rows of a "
-        "scene that\n"
-        "lists beads have outcome, the largest group, powers and counts of events; those of a bead in a world "
-        "(no\n"
-        "plate, a bowl, a medium, coils, other drives) the frame, the mean height and the balance of energy.\n",
+    .details = "Each point gets one row with the keys of festoon run, a run that fails too.  Several --over "
+               "multiply, the last\n"
+               "one running fastest; random ones are drawn together.  Killed or interrupted at any moment, the "
+               "same command goes\n"
+               "on; one at a time works on a FILE.db.  Under mpirun -n N or srun --mpi=pmix the points are "
+               "shared between\n"
+               "processes.  With --refine N what is smaller than 2^N points may be missed; another N goes on "
+               "with the same file.\n"
+               "Rows of several beads have outcome, the largest group, powers and counts of events, those of a "
+               "bead in a world\n"
+               "the frame, the mean height and the balance of energy.  docs/sweeps.md tells more.\n",
     .options = options,
     .most_operands = 1,
     .perform = perform,

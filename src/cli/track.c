@@ -18,14 +18,13 @@ static const option options[] = {
     {"scale", '\0', "SCALE",
      "\"bead 5 mm\", \"plate 460 mm\", \"X1,Y1:X2,Y2=50mm\", or four corners \"...=80x60mm\"; \"A; B\": "
      "A, compared with B"},
-    {"fps", '\0', "F", "frames a second, instead of the film's clock; a folder of images needs it"},
+    {"fps", '\0', "F", "frames a second of the film, instead of its clock; a folder of images needs it"},
     {"distance", '\0', "LENGTH", "from the camera to the plate: allows for the bead's height above it"},
     {"turning", '\0', "DIAMETER",
      "how a bead with marks turns: adds columns for n, W and the slip; its diameter, as 5mm, by callipers"},
     {"overlay", '\0', "FILM.mp4",
      "a film (mp4, mov) that shows what was found, slowed down to 30 frames a second"},
-    {"picture", '\0', "FIG.png", "one picture to check by eye: the path, the plate's edge, and beads enlarged"},
-    QUIET_OPTION,
+    {"figure", '\0', "FIG.png", "one picture to check by eye: the path, the plate's edge, and beads enlarged"},
     {NULL, '\0', NULL, NULL},
 };
 
@@ -34,7 +33,7 @@ static fst_status read_options(const arguments *given, fst_film_track_options *t
     *track = fst_default_film_track_options();
     track->scale = option_value(given, "scale");
     track->overlay = option_value(given, "overlay");
-    track->picture = option_value(given, "picture");
+    track->picture = option_value(given, "figure");
     double beads = 1.0;
     const value_option rows[] = {{"beads", VALUE_WHOLE, &beads, 1, FST_TRACKED_BEADS},
                                  {"fps", FST_UNIT_NUMBER, &track->fps, 0, 0},
@@ -216,7 +215,7 @@ static void name_track(const char *folder, const char *film, char text[SHOWN_SIZ
 
 static fst_status check_several(const arguments *given, const char *folder, fst_error *error)
 {
-    static const char *const of_one[] = {"overlay", "picture"};
+    static const char *const of_one[] = {"overlay", "figure"};
     char one[SHOWN_SIZE], other[SHOWN_SIZE];
     struct stat there;
     for (size_t i = 0; i < sizeof of_one / sizeof *of_one; ++i)
@@ -286,7 +285,7 @@ static fst_status check_outputs(const arguments *given, const fst_film_track_opt
         if (status == FST_OK)
             status = check_other_file("--overlay", film->overlay, path, error);
         if (status == FST_OK)
-            status = check_other_file("--picture", film->picture, path, error);
+            status = check_other_file("--figure", film->picture, path, error);
     }
     return status;
 }
@@ -321,16 +320,13 @@ const command track_command = {
     .synopsis = "FILM|FOLDER... -o TRACK.csv|FOLDER [--scale SCALE] [options]",
     .summary = "Find the bead, or several, in every frame of a film, for festoon measure",
     .details =
-        "FILM is what ffmpeg reads of mp4, mov, webm, gif, avi ...; FOLDER has images (PNG, JPEG, BMP, PGM, "
-        "PPM),\n"
-        "taken in the order of their names and numbers.  The camera should stand still; the bead must be "
-        "darker\n"
-        "or brighter than the plate.  With --beads a row is a bead in a frame: column track has its name, "
-        "doubts how\n"
-        "often until there it may have exchanged it with another one's.  Pixels of a scale count from the top "
-        "left, as in viewers of pictures.  Several films have their tracks in the folder behind -o, under "
-        "their\n"
-        "names, and a table tells of them.\n",
+        "FILM is what ffmpeg reads; FOLDER has images (PNG, JPEG, BMP, PGM, PPM), taken in the order of their "
+        "names and\n"
+        "numbers.  The camera should stand still; the bead must be darker or brighter than the plate.  With "
+        "--beads a row\n"
+        "is a bead in a frame: column track has its name, doubts how often until there it may have exchanged "
+        "it.  Pixels\n"
+        "of a scale count from the top left.  The tracks of several films go into the folder behind -o.\n",
     .options = options,
     .most_operands = OPERAND_LIMIT,
     .has_helpers = 1,

@@ -26,24 +26,25 @@ fst_status read_units(const arguments *given, fst_shown_units *units, fst_error 
     return status;
 }
 
-fst_status read_keys(const char *text, char words[KEYS_SIZE], const char *keys[KEY_LIMIT], int *count,
-                     fst_error *error)
+fst_status read_quantities(const arguments *given, char words[KEYS_SIZE], const char **names, int most,
+                           fst_error *error)
 {
-    *count = 0;
-    if (strlen(text) >= KEYS_SIZE)
-        return fail(error, FST_BAD_INPUT, "--key", "the list is longer than %d letters", KEYS_SIZE - 1);
-    (void)snprintf(words, KEYS_SIZE, "%s", text);
-    for (char *word = words; *word;) {
-        const size_t length = strcspn(word, ",");
+    const char *text = option_value(given, "quantity");
+    if (text && strlen(text) >= KEYS_SIZE)
+        return fail(error, FST_BAD_INPUT, "--quantity", "the list is longer than %d letters", KEYS_SIZE - 1);
+    (void)snprintf(words, KEYS_SIZE, "%s", text ? text : "");
+    for (int count = 0; *words; ++count) {
+        const size_t length = strcspn(words, ",");
+        const int last = !words[length];
         if (length == 0)
-            return fail(error, FST_BAD_INPUT, "--key", "a name is missing in \"%.60s\"", text);
-        if (*count == KEY_LIMIT)
-            return fail(error, FST_BAD_INPUT, "--key", "there are more than %d names", KEY_LIMIT);
-        keys[(*count)++] = word;
-        if (!word[length])
+            return fail(error, FST_BAD_INPUT, "--quantity", "a name is missing in \"%.60s\"", text);
+        if (count == most)
+            return fail(error, FST_BAD_INPUT, "--quantity", "this shows at most %d, not \"%.60s\"", most, text);
+        names[count] = words;
+        if (last)
             break;
-        word[length] = '\0';
-        word += length + 1;
+        words[length] = '\0';
+        words += length + 1;
     }
     return FST_OK;
 }

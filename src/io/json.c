@@ -444,6 +444,7 @@ static void put_schema_row(fst_json *json, int index)
         fst_json_text(json, "names", NULL);
     }
     fst_json_text(json, "other_form", fst_param_other_form(info->key));
+    fst_json_flag(json, "expert", fst_name_place(info->key, FST_EXPERT_KEYS) >= 0);
     /* of a key of the first part: how many parts may have it */
     fst_json_place(json, "parts", fst_param_part(index) == 0 ? FST_PARTS_MAX : -1);
     fst_json_close(json);

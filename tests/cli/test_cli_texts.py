@@ -71,7 +71,7 @@ class ForPeople(Case):
         self.assertIn("give bead.moment or magnet.b0", self.good("field", "--at", "0,0", "--units", "si"))
         for height in ("0mm", "-1mm", "nan", "20 kg", ""):
             self.bad(["field", "--at", "0,0", "--height", height], "--height", "18.7mm")
-        self.bad(["field", "--at", "0,0", "--map", "z"], "--map", "-o")
+        self.bad(["field", "--at", "0,0", "--quantity", "z"], "--quantity", "-o")
 
     def test_field_takes_lengths(self):
         self.assertEqual(self.json("field", "--at", "11.5mm,23 mm")["b"], self.json("field", "--at", "0.5,1")["b"])

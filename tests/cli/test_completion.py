@@ -88,11 +88,11 @@ class Completion(Case):
         self.assertEqual(self.offered("branch", "--kind", "=", "c"), ["counter"])
         self.assertEqual(self.offered("plot", "--kind", "lo"), ["local-n"])
         self.assertEqual(self.offered("sweep", "--threads", ""), [])
-        self.assertIn("mean_r", self.offered("plot", "--key", "mean_"))
-        self.assertEqual(self.offered("plot", "--key", "regime,mean_n"), ["regime,mean_nz", "regime,mean_nz_error"])
+        self.assertIn("mean_r", self.offered("plot", "--quantity", "mean_"))
+        self.assertEqual(self.offered("plot", "--quantity", "regime,mean_n"), ["regime,mean_nz", "regime,mean_nz_error"])
         self.assertEqual(self.offered("fit", "--free", "model.kappa,friction.g"), ["model.kappa,friction.gamma"])
         self.assertEqual(self.offered("fit", "--given", "magnet.d"), ["magnet.depth="])
-        self.assertIn("slip", self.offered("plot", "--colour", "s"))
+        self.assertIn("slip", self.offered("plot", "--quantity", "s"))
 
     def test_every_choice_is_one(self):
         """What the script offers for an option is not refused as an unknown word."""

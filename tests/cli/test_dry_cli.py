@@ -140,13 +140,13 @@ class Trajectories(Case):
                 self.assertEqual((row["z"], row["vz"]), (0, 0))
             else:
                 self.assertEqual((row["load"], row["friction"]), (0, 0))
-        self.good("plot", name, "--colour", "z", "-o", self.path("fly.svg"))
+        self.good("plot", name, "--quantity", "z", "-o", self.path("fly.svg"))
 
     def test_pictures(self):
         name = self.path("dry.h5")
         self.good("run", *DRY, "--set", "run.periods=6", "-o", name)
-        for words in (("plot", name, "--colour", "friction_use", "-o", self.path("use.svg")),
-                      ("plot", name, "--colour", "sticking", "-o", self.path("sticking.svg"))):
+        for words in (("plot", name, "--quantity", "friction_use", "-o", self.path("use.svg")),
+                      ("plot", name, "--quantity", "sticking", "-o", self.path("sticking.svg"))):
             self.good(*words)
             self.assertGreater(os.path.getsize(words[-1]), 1000)
 

@@ -262,9 +262,9 @@ class Hostile(unittest.TestCase):
                 ("sweep", "--over", poison + "=1:2:2", "-o", self.path("no.db")),
                 ("branch", "--kind", poison), ("branch", "--kind", "locked", "--over", poison),
                 ("branch", "--kind", "locked", "--over", poison + "=1:2"),
-                ("plot", self.path("track.csv"), "--colour", poison, "-o", self.path("no.svg")),
+                ("plot", self.path("track.csv"), "--quantity", poison, "-o", self.path("no.svg")),
                 ("plot", self.path("track.csv"), "--kind", poison, "-o", self.path("no.svg")),
-                ("movie", self.path("track.csv"), "--colour", poison, "-o", self.path("no.mp4")),
+                ("movie", self.path("track.csv"), "--quantity", poison, "-o", self.path("no.mp4")),
                 ("paper", "--only", poison), ("check", self.path(poison.replace("/", "") + ".yaml")))
             for place, words in enumerate(commands):
                 if (turn + place) % EVERY == 0:

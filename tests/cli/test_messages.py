@@ -51,7 +51,7 @@ class Words(Case):
     def test_a_name_by_its_end(self):
         path = self.path("s.db")
         self.good("sweep", *SHORT, "--over", "drive.frequency=9:10:2", "-o", path)
-        self.bad(["export", path, "--csv", "--key", "r"], "--key: unknown key \"r\"; the nearest is mean_r")
+        self.bad(["export", path, "--csv", "--quantity", "r"], "--quantity: unknown key \"r\"; the nearest is mean_r")
 
     def test_a_unit_is_asked_for_by_its_option(self):
         self.bad(["measure", self.path("t.csv", "frame,x,y\n1,2,3\n2,3,4\n"), "--fps", "30"], "--scale")
@@ -117,10 +117,10 @@ class Leaks(Case):
         self.good("sweep", *SHORT, "--over", "drive.frequency=9:10:2", "-o", s)
         self.good("run", *SHORT, "--csv", t)
         text = self.path("text", "words\n")
-        bad = [["export", s, "--csv", "--key", "mean_rr"], ["export", s, "--json", "--key", "mean_r"],
+        bad = [["export", s, "--csv", "--quantity", "mean_rr"], ["export", s, "--json", "--quantity", "mean_r"],
                ["export", s, "--csv", "--units", "metre"], ["export", text, "--csv"], ["track", text, "-o", "o.csv"],
-               ["plot", s, "--key", "bead.radius", "-o", "o.svg"], ["plot", s, "--key", "status", "-o", "o.svg"],
-               ["plot", t, "--kind", "time", "--key", "q", "-o", "o.svg"], ["plot", t, "--colour", "q", "-o", "o.svg"],
+               ["plot", s, "--quantity", "bead.radius", "-o", "o.svg"], ["plot", s, "--quantity", "status", "-o", "o.svg"],
+               ["plot", t, "--kind", "time", "--quantity", "q", "-o", "o.svg"], ["plot", t, "--quantity", "q", "-o", "o.svg"],
                ["plot", t, "--from", "99", "-o", "o.svg"], ["plot", t, "--zoom", "1,1,1,1", "-o", "o.svg"],
                ["plot", t, "-o", "o.xyz"], ["plot", text, "-o", "o.svg"], ["movie", t, "--fps", "0", "-o", "o.mp4"],
                ["movie", t, "--turn", "-1", "-o", "o.mp4"], ["movie", t, "--size", "1x1", "-o", "o.mp4"],
@@ -140,10 +140,10 @@ class Leaks(Case):
                ["measure", t, "--exposure", "9"], ["measure", t, "--fps", "-1"], ["measure", text],
                ["fit", t, "--free", "model.kappa"], ["fit", "--track", t, "--free", "q"],
                ["fit", "--track", t, "--free", "model.kappa", "--given", "model.kappa=1"],
-               ["run", "--fps", "0"], ["run", "--ramp", "1"], ["run", "-o", "o.xyz"], ["lab", "--set", "magnet.shape=grid"],
+               ["run", "--sample-rate", "0"], ["run", "--ramp", "1"], ["run", "-o", "o.xyz"], ["lab", "--set", "magnet.shape=grid"],
                ["run", "--set", "magnet.shape=grid"], ["run", "--set", f"magnet.file={text}", "--set", "magnet.shape=grid"],
                ["run", "--set", "model.banana=1"], ["run", "--set", "magnet.parts[0].size=1"], ["run", "--set", "bead.mass=0"],
-               ["run", "--set", "start.r=99"], ["field", "--at", "x,y"], ["field", "--map", "z", "--radius", "0", "-o", "f.svg"],
+               ["run", "--set", "start.r=99"], ["field", "--at", "x,y"], ["field", "--quantity", "z", "--radius", "0", "-o", "f.svg"],
                ["paper", "--only", "q"], ["export", "none.db", "--csv"], ["plot", "none.h5", "-o", "o.svg"],
                ["track", "none.mp4", "-o", "o.csv"], ["track", self.directory, "-o", "o.csv"], ["check", self.directory]]
         for words in bad:
@@ -163,7 +163,7 @@ class Help(Case):
         for name in names:
             head, _, options = self.good(name, "--help").partition("\noptions:\n")
             for line in options.splitlines():
-                self.assertRegex(line, r"^(  -\w, --|   --|  {29})", name)
+                self.assertRegex(line, r"^(  -\w, --|   --|  {29}|$|expert:$)", name)
             for line in (*options.splitlines(), *head.splitlines()[:2]):
                 self.assertLessEqual(len(line), 112, name)
 

@@ -106,12 +106,12 @@ class Orbits(unittest.TestCase):
                 out.write(festoon("run", "--set", "drive.omega=0.3", "--json")[1])
             for observable in ("mean_r", "mean_nz", "festoons"):
                 figure = os.path.join(directory, observable + ".svg")
-                status, _, err = festoon("plot", path, "--observable", observable, "--runs", runs, "-o", figure)
+                status, _, err = festoon("plot", path, "--quantity", observable, "--runs", runs, "-o", figure)
                 self.assertEqual(status, 0, err)
                 self.assertGreater(os.path.getsize(figure), 2000)
             figure = os.path.join(directory, "circle.svg")
-            self.assertEqual(festoon("plot", path, "--observable", "multipliers", "-o", figure)[0], 0)
-            status, _, err = festoon("plot", path, "--observable", "mean_rr", "-o", figure)
+            self.assertEqual(festoon("plot", path, "--quantity", "multipliers", "-o", figure)[0], 0)
+            status, _, err = festoon("plot", path, "--quantity", "mean_rr", "-o", figure)
             self.assertEqual(status, 2)
             self.assertIn("mean_r", err)
             with open(path, "w", encoding="utf-8") as broken:

@@ -115,7 +115,7 @@ class Parts(Case):
     def test_maps_show_the_poles(self):
         """The outlines in the data of a map are those of the parts: the ball's circle is north, the dipole south."""
         figure = self.path("f.svg")
-        self.good("field", self.scene, "--map", "z", "--height", "3mm", "--units", "lab", "-o", figure)
+        self.good("field", self.scene, "--quantity", "z", "--height", "3mm", "--units", "lab", "-o", figure)
         with open(figure[:-3] + "dat") as file:
             blocks = file.read().split("\n\n\n")
         named = {block.strip().splitlines()[0].strip("# "): block for block in blocks if block.strip()}

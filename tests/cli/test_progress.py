@@ -1,5 +1,5 @@
 """Where standard error is no terminal, work of more than a minute tells every half minute how far it is; --quiet turns this
-off, and every command that shows progress has it.
+off.
 
 tests: cli/terminal.c cli/program.c"""
 
@@ -49,25 +49,6 @@ class Lines(unittest.TestCase):
         said = quiet.communicate(timeout=events.HANG)[1]
         self.assertEqual(quiet.returncode, 130)
         self.assertRegex(said, r"^festoon: interrupted after [^\n]*\n$")
-
-
-class Commands(unittest.TestCase):
-    def test_every_command_with_progress_can_be_quiet(self):
-        """A command's file that begins progress has the option in its table; no other has it."""
-        folder = os.path.join(os.environ["SOURCE_DIR"], "src", "cli")
-        help_of = {}
-        for name in sorted(os.listdir(folder)):
-            if name.endswith(".c"):
-                with open(os.path.join(folder, name), encoding="utf-8") as text:
-                    source = text.read()
-                command = re.search(r'^    \.name = "(\w+)",$', source, re.M)
-                if command:
-                    help_of[command.group(1)] = ("progress_begin(" in source, "--quiet" in subprocess.run(
-                        [FESTOON, command.group(1), "--help"], capture_output=True, text=True, check=True).stdout)
-        self.assertGreater(len(help_of), 15)
-        help_of.pop("paper")  # a program of its own, which has it
-        for command, (begins, has) in help_of.items():
-            self.assertEqual(begins, has, command)
 
 
 if __name__ == "__main__":

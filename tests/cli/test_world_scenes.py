@@ -59,12 +59,12 @@ class Worlds(Case):
                                       "--json"))["states"]
         self.assertLess(min(abs(s["height_mm"] - fold["at"]["height_mm"]) for s in states), 0.1)
         self.assertEqual({len(p["eigenvalues_per_s"]) for p in told["points"]}, {11})
-        for name in ((), ("--observable", "circle_mm"), ("--observable", "multipliers")):
+        for name in ((), ("--quantity", "circle_mm"), ("--quantity", "multipliers")):
             self.good("plot", path, *name, "-o", figure)
             with open(figure, encoding="utf-8") as file:
                 self.assertIn(("distance from the magnet", "circle", "Eigenvalues")[len(name) and 1 + ("multipliers" in name)],
                               file.read())
-        self.assertIn("height_mm", self.refused("plot", path, "--observable", "festoons", "-o", figure))
+        self.assertIn("height_mm", self.refused("plot", path, "--quantity", "festoons", "-o", figure))
         self.assertIn("one of a family", self.refused(*words, "--set", "medium.spin_drag_rate=0"))
         self.assertIn("leave it out", self.refused(*words, "--tolerance", "1e-9"))
 
@@ -73,7 +73,7 @@ class Worlds(Case):
             words = ("run", self.scene(name), "--set", "run.duration=0.1", "--json")
             plain = json.loads(self.good(*words))
             path = self.path(name + ".csv")
-            told = json.loads(self.good(*words, "--csv", path, "-o", self.path(name + ".h5"), "--fps", "100"))
+            told = json.loads(self.good(*words, "--csv", path, "-o", self.path(name + ".h5"), "--sample-rate", "100"))
             self.assertEqual(told["frame"], frame)
             with open(path, encoding="utf-8") as file:
                 lines = file.read().splitlines()
@@ -156,7 +156,7 @@ class Worlds(Case):
         self.assertAlmostEqual(told["specials"][0]["value"], 162.077, delta=1e-3)
         self.assertEqual({len(p["state"]) for p in told["points"]}, {12})
         self.good("plot", path, "-o", figure)
-        self.good("plot", path, "--observable", "multipliers", "-o", figure)
+        self.good("plot", path, "--quantity", "multipliers", "-o", figure)
 
     def test_refusals(self):
         for words, *sets in (("give plate.bowl_radius", "plate.shape=bowl"),

@@ -187,7 +187,7 @@ class Beads(unittest.TestCase):
             name = self.folder / f"{axes}.db"
             status, _, messages = run("sweep", scene, *over[:2 * axes], "-o", name)
             self.assertEqual(status, 0, messages)
-            _, rows, _ = run("export", name, "--csv", "--key", "outcome")
+            _, rows, _ = run("export", name, "--csv", "--quantity", "outcome")
             found = [row.split(",")[axes] for row in rows.splitlines()[1:]]
             self.assertEqual(len(found), 2 ** axes)
             self.assertIn("apart", found)
@@ -257,10 +257,10 @@ class Beads(unittest.TestCase):
                     self.assertAlmostEqual(math.hypot(*point), 23 * math.hypot(row["X_0"], row["Y_0"]), delta=1e-3, msg=words)
 
     def test_refusals(self):
-        self.refused("--colour does not belong to a trajectory of several beads", "--colour", "slip")
+        self.refused("--quantity does not belong to a trajectory of several beads", "--quantity", "slip")
         self.refused("--inset does not belong", "--inset")
-        self.refused("--arrows does not belong", "--arrows")
-        self.refused("--key does not belong", "--kind", "groups", "--key", "r")
+        self.refused("--no-arrows does not belong", "--no-arrows")
+        self.refused("--quantity does not belong", "--kind", "groups", "--quantity", "r")
         self.refused("figures of their path and of their groups", "--kind", "time")
         self.refused("--zoom does not belong to this kind", "--kind", "groups", "--zoom", "0,1,0,1")
         self.refused("no bead is in the zoom", "--zoom", "50,60,50,60")

@@ -113,7 +113,7 @@ def test_colours_cover_the_range_shown():
     """The range of colours covers every value, and begins at zero if the values come near it."""
     for column in ("slip", "angle", "B", "n_alpha"):
         with tempfile.TemporaryDirectory() as folder:
-            script, blocks, _ = figure(folder, "--colour", column)
+            script, blocks, _ = figure(folder, "--quantity", column)
         values = [row[2] for row in blocks["path"]]
         low, high = map(float, re.search(r"set cbrange \[(\S+):(\S+)\]", script).groups())
         assert low <= min(values) + 1e-6 and high >= max(values) - 1e-6, (column, low, high, min(values), max(values))

@@ -89,7 +89,7 @@ class Case(unittest.TestCase):
 class Series(Case):
     def test_time(self):
         """Every sample lies on its curve, in the units of the axes."""
-        texts, _, blocks = self.plot("t.csv", "--kind", "time", "--key", "r,load,slip", "--from", "5", "--to", "6")
+        texts, _, blocks = self.plot("t.csv", "--kind", "time", "--quantity", "r,load,slip", "--from", "5", "--to", "6")
         for wanted in ("time (s)", "r (mm)", "load (weights of the bead)", "slip of the contact |V| (mm/s)",
                        "(10.7 Hz)"):
             self.assertIn(wanted, texts)
@@ -113,7 +113,7 @@ class Series(Case):
 
     def test_section(self):
         """The points of the section lie where Phi passes 90 degrees, to the accuracy of a cubic."""
-        _, _, blocks = self.plot("t.csv", "--kind", "section", "--key", "r,Phi", "--units", "scaled")
+        _, _, blocks = self.plot("t.csv", "--kind", "section", "--quantity", "r,Phi", "--units", "scaled")
         points = blocks["panel1-curve1"]
         angle = [phi for turns, phi in zip(self.columns["drive_turns"], self.columns["Phi"]) if turns >= 4]
         passes = sum(math.floor((a - math.pi / 2) / (2 * math.pi)) > math.floor((b - math.pi / 2) / (2 * math.pi))
@@ -142,16 +142,16 @@ class Series(Case):
         """Without --kind a ramp is drawn as one, and every kind shows it from end to end; a path stays a path."""
         columns, _ = read_csv(self.folder / "ramp.csv")
         self.assertIn("on a ramp of the drive", self.plot("ramp.csv")[0])
-        texts, _, blocks = self.plot("ramp.csv", "--kind", "time", "--key", "r")
+        texts, _, blocks = self.plot("ramp.csv", "--kind", "time", "--quantity", "r")
         times = [x for x, _ in blocks["panel1-curve1"]]
         self.assertAlmostEqual(times[-1] * GAMMA, columns["t"][-1], delta=1e-3 * columns["t"][-1])
         self.assertIn("(9 to 11.99 Hz)", texts)
-        self.assertIn("(9 to 11.99 Hz)", self.plot("ramp.csv", "--colour", "slip")[0])
+        self.assertIn("(9 to 11.99 Hz)", self.plot("ramp.csv", "--kind", "path", "--quantity", "slip")[0])
         self.assertIn("Path of the bead", self.plot("t.csv")[0])
 
     def test_panels_stand_apart(self):
         """Between stacked panels there is room for the numbers at their corners, 12 pixels high."""
-        _, script, _ = self.plot("t.csv", "--kind", "time", "--key", "r,n_z,slip")
+        _, script, _ = self.plot("t.csv", "--kind", "time", "--quantity", "r,n_z,slip")
         height = int(re.search(r"set terminal svg size \d+,(\d+)", script)[1])
         frames = [[height * float(x) for x in pair] for pair in
                   re.findall(r"set tmargin at screen ([0-9.]+)\nset bmargin at screen ([0-9.]+)", script)][:3]
@@ -197,13 +197,13 @@ class Series(Case):
     def test_what_is_refused(self):
         track = self.folder / "t.csv"
         for wanted, words in (
-                ("the nearest is slip", ["--kind", "time", "--key", "slop"]),
-                ("missing", ["--kind", "time", "--key", "r,,n_z"]),
-                ("at most 6", ["--kind", "time", "--key", "r,B,slip,n_z,n_x,n_y,x"]),
-                ("two columns", ["--kind", "section", "--key", "r"]),
+                ("the nearest is slip", ["--kind", "time", "--quantity", "slop"]),
+                ("missing", ["--kind", "time", "--quantity", "r,,n_z"]),
+                ("at most 6", ["--kind", "time", "--quantity", "r,B,slip,n_z,n_x,n_y,x"]),
+                ("two columns", ["--kind", "section", "--quantity", "r"]),
                 ("no ramp", ["--kind", "ramp"]),
-                ("colour scale", ["--kind", "time", "--colour", "slip"]),
-                ("columns of choice", ["--key", "r"]),
+                ("colour scale", ["--kind", "radius-field", "--quantity", "slip"]),
+                ("at most 1", ["--quantity", "r,slip"]),
                 ("nearest is section", ["--kind", "secton"]),
                 ("nearest is lab", ["--units", "labs"])):
             self.refused(wanted, "plot", track, *words)
@@ -225,7 +225,7 @@ class Branches(Case):
             self.assertLess(abs(y - 1e3 * LENGTH * r), 1e-6)
 
     def test_shapes_tell_special_points_apart(self):
-        _, script, _ = self.plot("locked.json", "--observable", "slip")
+        _, script, _ = self.plot("locked.json", "--quantity", "slip")
         signs = re.findall(r"'panel1-curve\d+' .* with points ps \S+ lw \S+ pt (\d+) lc rgb '(#\w+)'", script)
         self.assertGreater(len(signs), 1)
         self.assertEqual(len(set(signs)), len(signs))
@@ -264,7 +264,7 @@ class Branches(Case):
 
     def pieces(self, name, observable):
         """The pieces of the first curve, each a list of points."""
-        self.plot(name, "--observable", observable)
+        self.plot(name, "--quantity", observable)
         text = (self.folder / "f.dat").read_text(encoding="utf-8").split("\n\n\n")[0]
         pieces = [[[float(word) for word in line.split()] for line in piece.split("\n") if line and line[0] != "#"]
                   for piece in text.split("\n\n")]
@@ -296,13 +296,13 @@ class Branches(Case):
         good("branch", "--kind", "all", "--over", "drive.frequency=5Hz:12Hz", "-o", self.folder / "all.json")
         found = json.loads((self.folder / "all.json").read_text())
         known = [1e3 * LENGTH * p["mean_r"] for p in found["points"] + [s["at"] for s in found["specials"]]]
-        _, _, blocks = self.plot("all.json", "--observable", "mean_r")
+        _, _, blocks = self.plot("all.json", "--quantity", "mean_r")
         drawn = [y for name, block in blocks.items() if name.startswith("panel") for _, y in block]
         self.assertGreater(min(drawn), 0)
         self.assertGreater(min(drawn), 0.9 * min(known))
         self.assertLess(max(drawn), 1.01 * max(known))
         # Phi tells a branch from its image under S2: every branch is drawn.
-        _, _, blocks = self.plot("all.json", "--observable", "phi_deg")
+        _, _, blocks = self.plot("all.json", "--quantity", "phi_deg")
         drawn = [point for name, block in blocks.items() if name.startswith("panel") for point in block]
         for p in {p["branch"]: p for p in found["points"] if p["phi_deg"] is not None}.values():
             self.assertLess(min(abs(x - p["value"]) + abs((y - p["phi_deg"] + 180) % 360 - 180) for x, y in drawn), 1e-3)
@@ -315,23 +315,23 @@ class Branches(Case):
         self.assertIn("(incomplete: interrupted)", self.plot("part.json")[0])
 
     def test_options_of_other_files(self):
-        """What says nothing of a file is not left aside in silence: --key drew <r> of a branch instead of the key."""
+        """What says nothing of a file is not left aside in silence."""
         good("sweep", "--set", "run.periods=6", "--set", "run.discard=2", "--over", "drive.frequency=9:10:2", "-o",
              self.folder / "s.db")
         for name, word, words in (
-                ("locked.json", "--key does not belong to a branch; what does: --observable", ["--key", "mean_alpha_dot"]),
+                ("locked.json", "--zoom does not belong to a branch; what does: --quantity", ["--zoom", "0,1,0,1"]),
                 ("locked.json", "--kind does not", ["--kind", "section"]), ("locked.json", "--inset", ["--inset"]),
-                ("t.csv", "--observable does not belong to a trajectory", ["--observable", "mean_nz"]),
+                ("t.csv", "no column \"mean_nz\"", ["--quantity", "mean_nz"]),
                 ("t.csv", "--runs does not", ["--runs", "r.json"]),
-                ("t.csv", "--arrows does not belong to this kind", ["--arrows", "--kind", "time"]),
+                ("t.csv", "--no-arrows does not belong to this kind", ["--no-arrows", "--kind", "time"]),
                 ("t.csv", "--zoom does not", ["--zoom", "0,1,0,1", "--kind", "section"]),
-                ("s.db", "--observable does not belong to a sweep; what does: --kind, --key", ["--observable", "mean_nz"]),
-                ("s.db", "--key does not belong to a figure with measured points", ["--key", "mean_r", "--points", "p.csv"])):
+                ("s.db", "--frame does not belong to a sweep; what does: --kind, --quantity, --only", ["--frame", "lab"]),
+                ("s.db", "--quantity does not belong to a figure with measured points", ["--quantity", "mean_r", "--points", "p.csv"])):
             self.refused(word, "plot", self.folder / name, *words)
 
     def test_an_observable_that_is_not_there(self):
         for name, observable in (("locked.json", "festoons"), ("counter.json", "slip"), ("counter.json", "second")):
-            self.refused("has a value of " + observable, "plot", self.folder / name, "--observable", observable)
+            self.refused("has a value of " + observable, "plot", self.folder / name, "--quantity", observable)
 
     def test_scales_that_are_not_known(self):
         with open(self.folder / "counter.json", encoding="utf-8") as file:
@@ -350,7 +350,7 @@ class LaboratoryFiles(Case):
         """Rows are 1/240 s apart, and their numbers are those of the run in other units."""
         rate = 250  # of friction, 1/s
         good("run", "--set", "run.periods=6", "--set", "run.discard=2", "--csv", self.folder / "lab.csv", "--units", "lab",
-             "--fps", "240", "-o", self.folder / "scaled.csv", "--set", f"friction.gamma={rate}")
+             "--sample-rate", "240", "-o", self.folder / "scaled.csv", "--set", f"friction.gamma={rate}")
         lab, units = read_csv(self.folder / "lab.csv")
         self.assertEqual([units[name] for name in ("t", "x", "vx", "w_z", "load", "energy", "drive_power", "n_x", "Phi")],
                          ["s", "mm", "mm/s", "Hz", "mN", "uJ", "mW", "1", "rad"])
@@ -369,8 +369,8 @@ class LaboratoryFiles(Case):
     def test_the_units(self):
         """A file in scaled units beside it holds the same numbers; velocities are the slopes of positions."""
         good("run", "--set", "run.periods=4", "--set", "run.discard=2", "--csv", self.folder / "a.csv", "--units", "lab",
-             "--fps", "2000")
-        good("run", "--set", "run.periods=4", "--set", "run.discard=2", "--csv", self.folder / "b.csv", "--fps", "2000")
+             "--sample-rate", "2000")
+        good("run", "--set", "run.periods=4", "--set", "run.discard=2", "--csv", self.folder / "b.csv", "--sample-rate", "2000")
         lab, shown = read_csv(self.folder / "a.csv")
         scaled, units = read_csv(self.folder / "b.csv")
         in_si = {"l": LENGTH, "1/gamma": 1 / GAMMA, "gamma": GAMMA, "l gamma": LENGTH * GAMMA,
@@ -390,8 +390,8 @@ class LaboratoryFiles(Case):
 
     def test_what_is_refused(self):
         path = self.folder / "c.csv"
-        for wanted, words in (("--csv", ["--fps", "3"]), ("nearest is lab", ["--units", "labs"]),
-                              ("0.01", ["--csv", path, "--fps", "0"]), ("number", ["--csv", path, "--fps", "x"]),
+        for wanted, words in (("--csv", ["--sample-rate", "3"]), ("nearest is lab", ["--units", "labs"]),
+                              ("0.01", ["--csv", path, "--sample-rate", "0"]), ("number", ["--csv", path, "--sample-rate", "x"]),
                               ("nearest is si", ["--csv", path, "--units", "SI"])):
             status, _, messages = run("run", "--set", "run.periods=3", "--set", "run.discard=1", *words)
             self.assertEqual(status, 2, messages)

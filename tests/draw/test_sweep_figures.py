@@ -49,7 +49,7 @@ class Figures(Case):
 class Maps(Figures):
     def test_cells_of_an_even_map(self):
         rows = self.sweep("a.db", "drive.frequency=9Hz:12Hz:4", "model.kappa=1:2:3")
-        script, cells = self.cells("a.db", "--key", "mean_r")
+        script, cells = self.cells("a.db", "--quantity", "mean_r")
         self.assertEqual(len(cells), 12)
         for row, cell in zip(rows, cells):
             kappa, frequency = float(row["model.kappa"]), float(row["drive.frequency"])
@@ -68,7 +68,7 @@ class Maps(Figures):
 
     def test_logarithmic_cells_meet_at_geometric_means(self):
         self.sweep("a.db", "drive.frequency=8Hz:32Hz:3:log", "model.kappa=0.5:2:3:log")
-        script, cells = self.cells("a.db", "--key", "max_r")
+        script, cells = self.cells("a.db", "--quantity", "max_r")
         self.assertIn("set logscale x", script)
         self.assertIn("set logscale y", script)
         for x, y, x_low, x_high, y_low, y_high, _ in cells:
@@ -79,7 +79,7 @@ class Maps(Figures):
 
     def test_lists_are_sorted_and_repeated_values_drawn_once(self):
         rows = self.sweep("a.db", "start.r=0.9,0.5,0.7,0.5", "model.kappa=3,1,2")
-        _, cells = self.cells("a.db", "--key", "mean_b")
+        _, cells = self.cells("a.db", "--quantity", "mean_b")
         wanted = {(float(row["model.kappa"]), float(row["start.r"])): float(row["mean_b"]) for row in rows}
         self.assertEqual(len(cells), 9)
         self.assertEqual([cell[0] for cell in cells], [1, 2, 3] * 3)
@@ -89,7 +89,7 @@ class Maps(Figures):
 
     def test_falling_axes_are_drawn_rising(self):
         self.sweep("a.db", "drive.frequency=12Hz:9Hz:4", "model.kappa=2:1:3")
-        script, cells = self.cells("a.db", "--key", "mean_b")
+        script, cells = self.cells("a.db", "--quantity", "mean_b")
         self.assertIn("set xrange [0.75:2.25]\n", script)
         self.assertTrue(all(cell[2] < cell[3] and cell[4] < cell[5] for cell in cells))
 
@@ -112,16 +112,16 @@ class Maps(Figures):
 
     def test_both_signs_get_a_palette_about_zero(self):
         self.sweep("a.db", "drive.frequency=3Hz:20Hz:2", "model.kappa=1,2")
-        script, cells = self.cells("a.db", "--key", "mean_alpha_dot")
+        script, cells = self.cells("a.db", "--quantity", "mean_alpha_dot")
         greatest = max(abs(cell[6]) for cell in cells)
         low, high = script.split("set cbrange [")[1].split("]")[0].split(":")
         self.assertEqual(float(low), -float(high))
         self.assertAlmostEqual(float(high), greatest, 5)
-        self.assertNotIn("cbrange", self.cells("a.db", "--key", "mean_r")[0])
+        self.assertNotIn("cbrange", self.cells("a.db", "--quantity", "mean_r")[0])
 
     def test_regimes(self):
         rows = self.sweep("a.db", "drive.frequency=1Hz:20Hz:3", "model.kappa=1:2:4")
-        script, blocks = self.plot("a.db", "--key", "regime")
+        script, blocks = self.plot("a.db", "--quantity", "regime")
         drawn = {name for name in blocks if name.startswith("cells-")}
         found = {row["regime"] for row in rows}
         self.assertEqual(len(drawn), len(found))
@@ -133,17 +133,17 @@ class Maps(Figures):
 
     def test_choices_are_named(self):
         self.sweep("a.db", "model.dynamics=rigid,farago2020", "drive.frequency=10,12")
-        script, cells = self.cells("a.db", "--key", "mean_r")
+        script, cells = self.cells("a.db", "--quantity", "mean_r")
         self.assertIn("set ytics ('rigid' 0, 'farago2020' 1)", script)
         self.assertEqual([cell[1] for cell in cells], [0, 0, 1, 1])
         # Choices between those that were swept have no place.
         laws = ["viscous", "rolling"]
         self.sweep("b.db", "friction.law=" + ",".join(laws), "drive.frequency=10,12")
-        script, cells = self.cells("b.db", "--key", "mean_r")
+        script, cells = self.cells("b.db", "--quantity", "mean_r")
         self.assertIn("set ytics ('viscous' 0, 'rolling' 1)", script)
         self.assertEqual(sorted({cell[1] for cell in cells}), [0, 1])
         self.sweep("c.db", "friction.law=coulomb,viscous")
-        script, blocks = self.plot("c.db", "--key", "mean_r")
+        script, blocks = self.plot("c.db", "--quantity", "mean_r")
         self.assertIn("set xtics ('viscous' 0, 'coulomb' 1)", script)
         self.assertEqual([x for x, _ in blocks["panel1-curve1"]], [1, 0])
 
@@ -159,7 +159,7 @@ class Maps(Figures):
 
     def test_points_without_a_value_are_counted(self):
         self.sweep("a.db", "drive.frequency=3Hz:20Hz:3", "model.kappa=1,2")
-        script, cells = self.cells("a.db", "--key", "period")
+        script, cells = self.cells("a.db", "--quantity", "period")
         self.assertTrue(0 < len(cells) < 6, cells)
         self.assertIn(f"white: {6 - len(cells)} of 6 points", words(script))
 
@@ -167,13 +167,13 @@ class Maps(Figures):
         self.sweep("r.db", "start.r=0.5:1:random:4", "start.phi=0:90:random:4")
         self.assertIn("random points", self.refused("plot", self.path("r.db"), "-o", self.path("f.svg")))
         self.sweep("g.db", "friction.gamma=300,310", "drive.frequency=10,12")
-        for options in (["--units", "scaled"], ["--units", "lab", "--key", "mean_alpha_dot"]):
+        for options in (["--units", "scaled"], ["--units", "lab", "--quantity", "mean_alpha_dot"]):
             self.assertIn("friction.gamma", self.refused("plot", self.path("g.db"), *options, "-o", self.path("f.svg")))
-        self.good("plot", self.path("g.db"), "--units", "lab", "--key", "mean_r", "-o", self.path("f.svg"))
+        self.good("plot", self.path("g.db"), "--units", "lab", "--quantity", "mean_r", "-o", self.path("f.svg"))
         self.refused("plot", self.path("g.db"), "--units", "imperial", "-o", self.path("f.svg"))
         # Where an axis is a unit, powers have none; nobody asked for one: they stay scaled.
         self.sweep("h.db", "bead.mass=0.4g,0.5g")
-        power = ("--key", "mean_drive_power")
+        power = ("--quantity", "mean_drive_power")
         self.assertIn("varies bead.mass", self.refused("plot", self.path("h.db"), *power, "--units", "lab", "-o", self.path("f.svg")))
         self.assertIn("γ³", self.plot("h.db", *power)[0])
         self.sweep("one.db", "drive.frequency=10,10,10")
@@ -189,36 +189,36 @@ class Units(Figures):
         self.sweep("f.db", "drive.frequency=10Hz:12Hz:3", "start.r=0.5,0.9")
         self.sweep("o.db", "drive.omega=0.2:0.24:3", "start.r=0.5,0.9")
         hertz = GAMMA / (2 * math.pi)
-        script, cells = self.cells("f.db", "--key", "mean_r", "--units", "scaled")
+        script, cells = self.cells("f.db", "--quantity", "mean_r", "--units", "scaled")
         self.assertIn("set label 'drive ω (γ)'", script)
         self.assertAlmostEqual(cells[0][1], 10 / hertz, 6)
         self.assertAlmostEqual(cells[1][0], 0.9, 6)
         length = cells[0][6]
-        script, cells = self.cells("f.db", "--key", "mean_r", "--units", "lab")
+        script, cells = self.cells("f.db", "--quantity", "mean_r", "--units", "lab")
         self.assertIn("set label 'r at the start (mm)'", script)
         self.assertIn("set label 'mean radius ⟨r⟩ (mm)'", script)
         self.assertAlmostEqual(cells[1][0], 0.9 * 1e3 * HALF_LENGTH, 5)
         self.assertAlmostEqual(cells[0][6], length * 1e3 * HALF_LENGTH, 4)
-        script, cells = self.cells("o.db", "--key", "mean_alpha_dot", "--units", "lab")
+        script, cells = self.cells("o.db", "--quantity", "mean_alpha_dot", "--units", "lab")
         self.assertIn("set label 'drive frequency (Hz)'", script)
         self.assertAlmostEqual(cells[0][1], 0.2 * hertz, 5)
         self.assertIn("set label 'bead''s circling ⟨α′⟩/2π (Hz)'", script)
-        self.assertAlmostEqual(cells[0][6] / self.cells("o.db", "--key", "mean_alpha_dot")[1][0][6], hertz, 3)
+        self.assertAlmostEqual(cells[0][6] / self.cells("o.db", "--quantity", "mean_alpha_dot")[1][0][6], hertz, 3)
         for key, unit, factor in (("max_slip", "mm/s", 1e3 * HALF_LENGTH * GAMMA), ("end_time", "s", 1 / GAMMA)):
-            script, cells = self.cells("o.db", "--key", key, "--units", "lab")
+            script, cells = self.cells("o.db", "--quantity", key, "--units", "lab")
             self.assertIn(f"({unit})", script)
-            self.assertLess(abs(cells[0][6] / self.cells("o.db", "--key", key)[1][0][6] / factor - 1), 1e-6)
+            self.assertLess(abs(cells[0][6] / self.cells("o.db", "--quantity", key)[1][0][6] / factor - 1), 1e-6)
 
     def test_metres_become_half_lengths(self):
         self.sweep("m.db", "magnet.depth=15mm:17mm:3", "bead.radius=2mm,3mm")
-        self.assertEqual([round(cell[0], 6) for cell in self.cells("m.db", "--key", "mean_r")[1]], [2, 3] * 3)
-        cells = self.cells("m.db", "--key", "mean_r", "--units", "scaled")[1]
+        self.assertEqual([round(cell[0], 6) for cell in self.cells("m.db", "--quantity", "mean_r")[1]], [2, 3] * 3)
+        cells = self.cells("m.db", "--quantity", "mean_r", "--units", "scaled")[1]
         self.assertAlmostEqual(cells[0][0], 2 / 23, 6)
         self.assertAlmostEqual(cells[0][1], 15 / 23, 6)
 
     def test_curves(self):
         rows = self.sweep("c.db", "drive.omega=0.2:0.8:5:log")
-        script, blocks = self.plot("c.db", "--key", "mean_r,rms_slip", "--units", "lab")
+        script, blocks = self.plot("c.db", "--quantity", "mean_r,rms_slip", "--units", "lab")
         self.assertIn("set logscale x\n", script)
         self.assertIn("set logscale x2\n", script)
         for row, (x, y) in zip(rows, blocks["panel1-curve1"]):
@@ -248,7 +248,7 @@ class Units(Figures):
 
     def test_names_stand_in_the_place_of_numbers(self):
         self.sweep("c.db", "drive.frequency=2,10,20")
-        script, blocks = self.plot("c.db", "--key", "regime")
+        script, blocks = self.plot("c.db", "--quantity", "regime")
         names = dict((name, int(value)) for name, value in re.findall(r"'([\w-]+)' (\d)", script.split("set ytics (")[1]
                                                                        .split(")")[0]))
         rows = csv.DictReader(io.StringIO(self.rows("c.db")))
@@ -256,13 +256,13 @@ class Units(Figures):
 
     def test_keys_without_values(self):
         self.sweep("c.db", "drive.frequency=10,11,12")
-        script, blocks = self.plot("c.db", "--key", "mean_r,largest_exponent,min_b")
+        script, blocks = self.plot("c.db", "--quantity", "mean_r,largest_exponent,min_b")
         self.assertIn("no value of: largest Lyapunov exponent (1/s)", words(script))
         self.assertEqual(sorted(name for name in blocks if name.startswith("panel")), ["panel1-curve1", "panel2-curve1"])
-        self.assertIn("no point", self.refused("plot", self.path("c.db"), "--key", "largest_exponent", "-o",
+        self.assertIn("no point", self.refused("plot", self.path("c.db"), "--quantity", "largest_exponent", "-o",
                                                self.path("f.svg")))
         self.sweep("m.db", "drive.frequency=19,20", "model.kappa=1.5,1.6")
-        self.assertIn("no point", self.refused("plot", self.path("m.db"), "--key", "largest_exponent", "-o",
+        self.assertIn("no point", self.refused("plot", self.path("m.db"), "--quantity", "largest_exponent", "-o",
                                                self.path("f.svg")))
 
 
@@ -275,42 +275,42 @@ class Slices(Figures):
     def test_points_of_one_value_of_an_axis(self):
         """Curves, families and maps of a sweep over three axes are the rows that have the values asked for."""
         rows = self.sweep("t.db", *self.AXES)
-        self.assertIn("--at KEY=VALUE", self.refused("plot", self.path("t.db"), "-o", self.path("f.svg")))
+        self.assertIn("--only KEY=VALUE", self.refused("plot", self.path("t.db"), "-o", self.path("f.svg")))
         for radius in (2, 2.5, 3):
             there = [row for row in rows if abs(float(row["bead.radius"]) - radius * 1e-3) < 1e-9]
             self.assertEqual(len(there), 8)
             wanted = {(float(row["drive.frequency"]), float(row["model.kappa"])): 23 * float(row["mean_r"]) for row in there}
-            script, cells = self.cells("t.db", "--key", "mean_r", "--at", f"bead.radius={radius}mm")
+            script, cells = self.cells("t.db", "--quantity", "mean_r", "--only", f"bead.radius={radius}mm")
             self.assertIn(f"at bead.radius {radius:g} mm", words(script))
             self.assertEqual(len(cells), 8)
             for cell in cells:
                 self.assertAlmostEqual(cell[6], wanted[round(cell[1], 6), round(cell[0], 6)], 4)
-            script, blocks = self.plot("t.db", "--key", "mean_r", "--at", f"bead.radius={radius}mm")
+            script, blocks = self.plot("t.db", "--quantity", "mean_r", "--only", f"bead.radius={radius}mm")
             for kappa, curve in zip((1, 1.5), self.curves(blocks, 1), strict=True):
                 self.assertIn(f"model.kappa {kappa:g}", words(script))
                 for x, y in curve:
                     self.assertAlmostEqual(y, wanted[round(x, 6), kappa], 4)
-            _, blocks = self.plot("t.db", "--key", "mean_r", "--at", f"bead.radius={radius}mm", "--at", "model.kappa=1.5")
+            _, blocks = self.plot("t.db", "--quantity", "mean_r", "--only", f"bead.radius={radius}mm", "--only", "model.kappa=1.5")
             self.assertEqual([round(y, 4) for _, y in self.curves(blocks, 1)[0]],
                              [round(wanted[f, 1.5], 4) for f in (9, 10, 11, 12)])
 
     def test_many_values_make_a_map_and_few_a_family(self):
         self.sweep("m.db", "model.kappa=1:2:8", "drive.frequency=9Hz:12Hz:8")
-        self.assertIn("boxxyerror", self.plot("m.db", "--key", "mean_r")[0])
-        self.assertEqual(len(self.curves(self.plot("m.db", "--key", "mean_r", "--kind", "curves")[1], 1)), 8)
+        self.assertIn("boxxyerror", self.plot("m.db", "--quantity", "mean_r")[0])
+        self.assertEqual(len(self.curves(self.plot("m.db", "--quantity", "mean_r", "--kind", "curves")[1], 1)), 8)
         self.sweep("n.db", "model.kappa=1:2:9", "drive.frequency=9Hz:12Hz:9")
         self.assertIn("too many", self.refused("plot", self.path("n.db"), "--kind", "curves", "-o", self.path("f.svg")))
 
     def test_values_that_are_not_there(self):
         self.sweep("t.db", "model.kappa=1,1.5", "friction.law=viscous,rolling", "drive.frequency=9,10")
-        plot = ("plot", self.path("t.db"), "-o", self.path("no.svg"), "--at")
+        plot = ("plot", self.path("t.db"), "-o", self.path("no.svg"), "--only")
         for at, told in (("model.kappa=1.4", "no points at model.kappa = 1.4; the nearest value is 1.5"),
                          ("friction.law=coulomb", "no points at friction.law = coulomb"), ("friction.law=dry", "friction.law"),
                          ("model.kapa=1", "the nearest is model.kappa"), ("start.r=0.95", "does not vary"),
                          ("model.kappa", "not KEY=VALUE"), ("model.kappa=x", "model.kappa")):
             self.assertIn(told, self.refused(*plot, at), at)
         self.assertFalse(os.path.exists(self.path("no.svg")))
-        script, _ = self.plot("t.db", "--at", "friction.law=rolling")
+        script, _ = self.plot("t.db", "--only", "friction.law=rolling")
         self.assertIn("at friction.law rolling", words(script))
 
 
@@ -332,7 +332,7 @@ class Over(Figures):
         axis = "drive.frequency=9Hz:15Hz:4"
         rows = self.sweep("plain.db", axis)
         self.good("sweep", *SHORT, "--set", "model.kappa=1.2", "--set", "bead.radius=2mm", "--over", axis, "-o", self.path("other.db"))
-        script, blocks, colours = self.over("plain.db", "other.db", "--key", "mean_r,std_r")
+        script, blocks, colours = self.over("plain.db", "other.db", "--quantity", "mean_r,std_r")
         self.assertIn("bead.radius 2.5 mm, model.kappa 1.5", words(script))
         self.assertIn("bead.radius 2 mm, model.kappa 1.2", words(script))
         self.assertEqual(colours["panel1-curve1"], colours["panel2-curve1"])
@@ -381,19 +381,19 @@ class Over(Figures):
         out = ("-o", self.path("no.svg"))
         for names in (("f.db", "k.db"), ("f.db", "t.csv"), ("t.csv", "f.db")):
             self.assertIn("no axis in common", self.refused("plot", *map(self.path, names), *out), names)
-        self.assertIn("--at KEY=VALUE", self.refused("plot", self.path("f.db"), self.path("two.db"), *out))
+        self.assertIn("--only KEY=VALUE", self.refused("plot", self.path("f.db"), self.path("two.db"), *out))
         self.assertIn("path, time, section and ramp",
                       self.refused("plot", self.path("t.csv"), self.path("t.csv"), "--kind", "local-n", *out))
         self.refused("plot", *[self.path("f.db")] * 9, *out)
-        for name, options, told in (("f.db", ("--kind", "time"), "is of trajectories"), ("f.db", ("--observable", "min_r"), "branches"),
-                                    ("t.csv", ("--key", "r"), "time, sections and ramps"), ("t.csv", ("--observable", "min_r"), "branches"),
-                                    ("t.csv", ("--at", "model.kappa=1"), "no sweep of these"), ("f.db", ("--kind", "map"), "two axes"),
+        for name, options, told in (("f.db", ("--kind", "time"), "is of trajectories"), ("f.db", ("--quantity", "q"), "unknown key"),
+                                    ("t.csv", ("--quantity", "r"), "time, sections and ramps"),
+                                    ("t.csv", ("--only", "model.kappa=1"), "no sweep of these"), ("f.db", ("--kind", "map"), "two axes"),
                                     ("t.csv", ("--kind", "curves"), "path, time, section and ramp")):
             self.assertIn(told, self.refused("plot", *[self.path(name)] * 2, *options, *out), (name, options))
         self.assertFalse(os.path.exists(self.path("no.svg")))
-        self.assertIn("no sweep of these varies", self.refused("plot", *[self.path("f.db")] * 2, "--at", "start.r=1", *out))
+        self.assertIn("no sweep of these varies", self.refused("plot", *[self.path("f.db")] * 2, "--only", "start.r=1", *out))
         for kind in ((), ("--kind", "curves")):
-            self.over("f.db", "two.db", "--at", "model.kappa=1.5", *kind)
+            self.over("f.db", "two.db", "--only", "model.kappa=1.5", *kind)
 
 
 class ManyPoints(Figures):
@@ -412,7 +412,7 @@ class ManyPoints(Figures):
 
     def test_curves(self):
         self.fill("c.db", 100001, "0.5 + i", "drive.frequency=0.1Hz:100.1Hz:100001")
-        script, blocks = self.plot("c.db", "--key", "mean_r,regime")
+        script, blocks = self.plot("c.db", "--quantity", "mean_r,regime")
         self.assertIn("one point of 11", words(script))
         drawn = blocks["panel1-curve1"]
         self.assertEqual(len(drawn), 9091)
@@ -422,7 +422,7 @@ class ManyPoints(Figures):
 
     def test_maps(self):
         self.fill("m.db", 2050 * 10, "i", "model.kappa=1:10:10", "drive.frequency=1Hz:206Hz:2050")
-        script, cells = self.cells("m.db", "--key", "mean_r")
+        script, cells = self.cells("m.db", "--quantity", "mean_r")
         self.assertIn("one point of 1 x 3", words(script))
         self.assertEqual(len(cells), 10 * 684)
         for i, cell in enumerate(cells):
@@ -436,7 +436,7 @@ class ManyPoints(Figures):
 class Words(Figures):
     def test_only_the_last_panel_names_the_choices(self):
         self.sweep("w.db", "model.dynamics=rigid,farago2020")
-        script, _ = self.plot("w.db", "--key", "mean_r,std_r,mean_nz")
+        script, _ = self.plot("w.db", "--quantity", "mean_r,std_r,mean_nz")
         tics = [line for line in script.split("\n") if line.startswith("set xtics (")]
         self.assertEqual(tics, 2 * ["set xtics ('' 0, '' 1)"] + ["set xtics ('rigid' 0, 'farago2020' 1)"])
 

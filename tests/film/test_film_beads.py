@@ -153,11 +153,11 @@ class Films(unittest.TestCase):
 
     def test_what_cannot_be_is_refused(self):
         three = self.trajectory(THREE)
-        done = run("movie", three, "-o", self.folder / "no.mp4", "--colour", "slip")
+        done = run("movie", three, "-o", self.folder / "no.mp4", "--quantity", "slip")
         self.assertEqual(done.returncode, 2)
         self.assertIn("the colours of their beads", done.stderr)
         floating = self.trajectory(SOURCE / "examples/worlds/levitation.yaml", "--set", "run.duration=0.02")
-        for options, words in ((["--camera"], "plate.shape is none"), (["--colour", "B"], "needs the field"),
+        for options, words in ((["--camera"], "plate.shape is none"), (["--quantity", "B"], "needs the field"),
                                (["--from", "90"], "covers the drive periods 0 to 4")):
             done = run("movie", floating, "-o", self.folder / "no.mp4", *options)
             self.assertEqual(done.returncode, 2, (options, done.stderr))

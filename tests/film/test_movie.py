@@ -108,7 +108,7 @@ class Movie(unittest.TestCase):
 
     def test_what_cannot_be_is_refused(self):
         for options, words in ((["--size", "201x200"], "even"), (["--size", "big"], "720x720"),
-                               (["--fps", "0"], "frames a second"), (["--colour", "slipp"], "slip"),
+                               (["--fps", "0"], "frames a second"), (["--quantity", "slipp"], "slip"),
                                (["--from", "90"], "no samples"), (["--from", "3", "--to", "2"], "greater")):
             done = run("movie", self.track, "-o", self.folder / "no.mp4", *options)
             self.assertEqual(done.returncode, 2, (options, done.stderr))

@@ -68,7 +68,7 @@ class BadFilms(films.OnFilms):
         """It is tracked with a warning, and its picture is shown brighter."""
         film, picture = self.folder / "dim.mp4", self.folder / "dim.png"
         ffmpeg("-i", self.good, "-vf", "lutyuv=y=16+(val-16)*0.12", "-crf", "10", film)
-        _, done = self.track(film, "--picture", picture)
+        _, done = self.track(film, "--figure", picture)
         self.assertRegex(done.stderr, r"differs from the plate by \d+ gray levels of 255 only, where the noise of a pixel is")
         ffmpeg("-i", picture, "-pix_fmt", "gray", self.folder / "dim.pgm")
         ffmpeg("-i", film, "-frames:v", "1", "-pix_fmt", "gray", self.folder / "frame.pgm")

@@ -91,11 +91,11 @@ class Track(films.OnFilms):
         self.refused(good, "--distance|mm", "--scale", "plate 120 mm", "--distance", "1mm")
         self.refused(good, "--distance|more than 0", "--distance", "-3mm")
         # The picture shows what was found, where no scale follows from it.
-        done = run("track", good, "-o", self.folder / "no.csv", "--scale", "plate 120 mm", "--distance", "1mm", "--picture",
+        done = run("track", good, "-o", self.folder / "no.csv", "--scale", "plate 120 mm", "--distance", "1mm", "--figure",
                    self.folder / "why.png")
         self.assertEqual((done.returncode, (self.folder / "no.csv").exists()), (2, False))
         self.assertTrue((self.folder / "why.png").read_bytes().startswith(b"\x89PNG"))
-        self.refused(good, ".png", "--picture", self.folder / "x.jpg")
+        self.refused(good, ".png", "--figure", self.folder / "x.jpg")
         self.refused(good, ".mp4", "--overlay", self.folder / "x.avi")
         self.refused(good, "cannot write", "--overlay", self.folder / "nowhere" / "x.mp4", status=1)
         done = run("track", good, "-o", self.folder / "nowhere" / "x.csv", "--overlay", self.folder / "left.mp4")
@@ -141,7 +141,7 @@ class Track(films.OnFilms):
         """A name that ffmpeg could take for an option, a pattern or a protocol; names of files to write."""
         name = "-i concat:a%d 'q\"\n|x.mp4"
         shutil.copy(self.folder / "a.mp4", self.folder / name)
-        done = run("track", "-o", "o%d.csv", "--overlay", "v%d.mp4", "--picture", "p%d.png", "--", name, cwd=self.folder)
+        done = run("track", "-o", "o%d.csv", "--overlay", "v%d.mp4", "--figure", "p%d.png", "--", name, cwd=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn(b"ftyp", (self.folder / "v%d.mp4").read_bytes()[:12])
         self.assertEqual((self.folder / "p%d.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
@@ -169,7 +169,7 @@ class Track(films.OnFilms):
         self.assertEqual((self.folder / "to" / "b.c.csv").read_bytes(), alone)
         for words, wanted in [([*films_of_two, "-o", self.folder / "o.csv"], "no folder"),
                               ([*films_of_two, self.folder / "to" / ".." / "a.mp4", "-o", self.folder / "to"], "as that of"),
-                              ([*films_of_two, "-o", self.folder / "to", "--picture", "p.png"], "--picture is of one film")]:
+                              ([*films_of_two, "-o", self.folder / "to", "--figure", "p.png"], "--figure is of one film")]:
             done = run("track", *words)
             self.assertEqual((done.returncode, done.stdout), (2, ""))
             self.assertIn(wanted, done.stderr)
@@ -180,7 +180,7 @@ class Track(films.OnFilms):
         shutil.copy(self.folder / "a.mp4", film)
         (self.folder / "link.mp4").symlink_to(film)
         for options in (["-o", film], ["-o", self.folder / "link.mp4"], ["-o", self.folder / "o.csv", "--overlay", film],
-                        ["-o", self.folder / "o.csv", "--picture", film]):
+                        ["-o", self.folder / "o.csv", "--figure", film]):
             done = run("track", film, *options)
             self.assertEqual((done.returncode, done.stdout), (2, ""))
             self.assertIn("is read, and would be lost", done.stderr)

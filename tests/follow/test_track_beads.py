@@ -83,7 +83,7 @@ class Beads(films.OnFilms):
             self.assertAlmostEqual(bead["drive_from_track_hz"], 10.7, delta=4 * bead["drive_from_track_hz_error"])
         # One bead of the file alone is what it is among all, and a table of points has a row for each.
         for name in "12":
-            alone = json.loads(self.measured("opposite", "--json", "--track", name))
+            alone = json.loads(self.measured("opposite", "--json", "--only", name))
             self.assertEqual(alone, {k: v for k, v in found["beads"][int(name) - 1].items() if k not in ("reason", "uncertain_from_frame")})
         self.measured("opposite", "--scale", "0.5mm", "-o", self.folder / "points.csv")
         self.assertEqual(len((self.folder / "points.csv").read_text().splitlines()), 3)
@@ -92,7 +92,7 @@ class Beads(films.OnFilms):
             self.assertIn(words, text)
         done = run("measure", self.folder / "opposite.csv", "--figure", self.folder / "f.svg")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("say which by --track", done.stderr)
+        self.assertIn("say which by --only", done.stderr)
 
     def test_one_goes_past_the_other(self):
         """They come as close as to touch in the picture, and keep their names."""

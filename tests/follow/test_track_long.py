@@ -71,7 +71,7 @@ class Films(films.OnFilms):
             done = run("track", "-o", "named.csv", "--", name, cwd=self.folder)
             self.assertEqual(done.returncode, 0, (name, done.stderr))
             self.assertEqual((self.folder / "named.csv").read_bytes(), plain)
-        done = run("track", "a.mp4", "-o", "o%d.csv", "--overlay", "v%d.mp4", "--picture", "p%d.png", cwd=self.folder)
+        done = run("track", "a.mp4", "-o", "o%d.csv", "--overlay", "v%d.mp4", "--figure", "p%d.png", cwd=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn(b"ftyp", (self.folder / "v%d.mp4").read_bytes()[:12])
         self.assertEqual((self.folder / "p%d.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
@@ -168,7 +168,7 @@ class Films(films.OnFilms):
         films.film(self.path, self.folder / "hd.mp4", "--size", "1280x720")
         before = set(os.listdir(self.folder))
         process = subprocess.Popen([FESTOON, "track", self.folder / "hd.mp4", "-o", self.folder / "i.csv", "--overlay",
-                                    self.folder / "i.mp4", "--picture", self.folder / "i.png"], cwd=self.folder,
+                                    self.folder / "i.mp4", "--figure", self.folder / "i.png"], cwd=self.folder,
                                    stderr=subprocess.PIPE, start_new_session=True)
         while not any(name.startswith(".i.") for name in os.listdir(self.folder)):  # its first file has begun
             self.assertIsNone(process.poll())

@@ -142,10 +142,10 @@ def of_sweeps():
                                    "s.db"]),
         "export --csv": Command(["export", sweep, "--csv"]),
         "export --csv -o": Command(["export", sweep, "--csv", "-o", "e.csv"]),
-        "export --key": Command(["export", sweep, "--csv", "--key", "mean_r,regime", "--units", "lab"]),
+        "export --quantity": Command(["export", sweep, "--csv", "--quantity", "mean_r,regime", "--units", "lab"]),
         "export --json": Command(["export", sweep, "--json"]),
         "export --hdf5": Command(["export", sweep, "--hdf5", "-o", "e.h5"]),
-        "export of a part": Command(["export", "../given/part.db", "--csv", "--key", "mean_r"]),
+        "export of a part": Command(["export", "../given/part.db", "--csv", "--quantity", "mean_r"]),
     }
 
 
@@ -160,13 +160,13 @@ def of_figures():
         "measure --figure": Command(["measure", track, "--figure", "m.svg", "--compare", "../given/scene.yaml"], **drawn),
         "fit": Command(["fit", rows, *free], slow=True),
         "fit --json": Command(["fit", rows, *free, "--json"]),
-        "fit --compare --json": Command(["fit", rows, *free, "--compare", "--json"], slow=True),
+        "fit --rivals --json": Command(["fit", rows, *free, "--rivals", "--json"], slow=True),
         "fit -o": Command(["fit", rows, *free, "-o", "f.svg"], **drawn),
         "field -o": Command(["field", "-o", "f.svg"], **drawn),
         "plot .csv": Command(["plot", csv, "-o", "p.svg"], **drawn),
         "plot .h5": Command(["plot", "../given/t.h5", "--kind", "time", "-o", "p.svg"], **drawn),
         "plot .json": Command(["plot", "../given/b.json", "-o", "p.svg"], **drawn),
-        "plot .db": Command(["plot", "../given/s.db", "--key", "regime", "-o", "p.svg"], **drawn),
+        "plot .db": Command(["plot", "../given/s.db", "--quantity", "regime", "-o", "p.svg"], **drawn),
         "plot .db --points": Command(["plot", "../given/f.db", "--points", rows, "-o", "p.png"], **drawn),
         "plot of beads": Command(["plot", "../given/w.h5", "-o", "p.svg"], **drawn),
         "plot --kind groups": Command(["plot", "../given/w.h5", "--kind", "groups", "-o", "p.svg"], **drawn),
@@ -184,7 +184,7 @@ def of_films():
         "movie FOLDER": Command(["movie", csv, *few, "-o", "frames"], slow=True),
         "movie --camera": Command(["movie", csv, *few, "--camera", "-o", "m.mp4"], **filmed),
         "track": Command(["track", film, "-o", "t.csv"], **filmed),
-        "track --picture": Command(["track", film, "-o", "t.csv", "--picture", "t.png"], **filmed),
+        "track --figure": Command(["track", film, "-o", "t.csv", "--figure", "t.png"], **filmed),
         "track --overlay": Command(["track", film, "-o", "t.csv", "--overlay", "t.mp4"], **filmed),
     }
 

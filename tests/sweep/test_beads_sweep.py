@@ -66,18 +66,18 @@ class Sweeps(Case):
     def test_chosen_columns(self):
         name = self.path("s.db")
         self.good("sweep", self.scene, "--over", "beads[1].start.phi=120,183", "-o", name)
-        lines = self.good("export", name, "--csv", "--key", "outcome,largest_kind,mean_r,centre_rate,impact_power", "--units",
+        lines = self.good("export", name, "--csv", "--quantity", "outcome,largest_kind,mean_r,centre_rate,impact_power", "--units",
                           "lab").splitlines()
         self.assertEqual(lines[0], "beads[1].start.phi [deg],outcome,largest_kind,mean_r [mm],centre_rate [Hz],"
                          "impact_power [mW],status")
         cells = lines[2].split(",")
         self.assertEqual(cells[:3] + cells[-1:], ["183", "apart", "single", "done"])
         self.assertAlmostEqual(float(cells[3]), 21.3, 1)
-        self.assertIn("have no regime", self.refused("export", name, "--csv", "--key", "regime"))
+        self.assertIn("have no regime", self.refused("export", name, "--csv", "--quantity", "regime"))
         self.good("export", name, "--hdf5", "-o", self.path("s.h5"))
         single = self.path("one.db")
         self.good("sweep", "--set", "run.periods=2", "--set", "run.discard=1", "--over", "start.r=0.8,0.9", "-o", single)
-        self.assertIn("of one bead, have no outcome", self.refused("export", single, "--csv", "--key", "outcome"))
+        self.assertIn("of one bead, have no outcome", self.refused("export", single, "--csv", "--quantity", "outcome"))
 
     def test_refused(self):
         for words, said in ((("--carry", "up"), "leave this out"), (("--refine", "2"), "leave this out")):

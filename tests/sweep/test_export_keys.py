@@ -1,4 +1,4 @@
-"""export --csv --key ... --units ...: chosen columns of a sweep, converted into the units that stand in their names.
+"""export --csv --quantity ... --units ...: chosen columns of a sweep, converted into the units that stand in their names.
 
 tests: sweep/export_keys.c cli/export.c"""
 
@@ -44,7 +44,7 @@ class ExportKeys(Case):
     def test_units_of_the_laboratory(self):
         """By the definitions of the scaled units, at each point: friction.gamma is varied."""
         path, known = self.sweep("friction.gamma=250,312.5", "magnet.depth=9mm,16.2mm", "drive.frequency=9Hz,19Hz")
-        head, rows = self.table(path, "--csv", "--key", ",".join(KEYS), "--units", "lab")
+        head, rows = self.table(path, "--csv", "--quantity", ",".join(KEYS), "--units", "lab")
         self.assertEqual(head, ["friction.gamma [1/s]", "magnet.depth [mm]", "drive.frequency [Hz]", "regime", "symmetry",
                                 "mean_r [mm]", "mean_alpha_dot [Hz]", "rms_slip [mm/s]", "mean_b [B0]", "festoons", "rhs_calls", "status"])
         self.assertEqual([row[:3] for row in rows[:3]], [["250", "9", "9"], ["250", "9", "19"], ["250", "16.2", "9"]])
@@ -53,12 +53,12 @@ class ExportKeys(Case):
 
     def test_scaled_and_si(self):
         path, known = self.sweep("magnet.half_length=20mm,23mm", "model.dynamics=rigid,farago2020")
-        head, rows = self.table(path, "--csv", "--key", ",".join(KEYS), "--units", "scaled")
+        head, rows = self.table(path, "--csv", "--quantity", ",".join(KEYS), "--units", "scaled")
         self.assertEqual(head[:2] + head[4:6], ["magnet.half_length [m]", "model.dynamics", "mean_r [l]", "mean_alpha_dot [gamma]"])
         self.assertEqual(rows[1][:2], ["0.02", "farago2020"])
         self.compare(rows, known, {})
-        self.assertEqual(self.table(path, "--csv", "--key", ",".join(KEYS)), (head, rows))
-        head, rows = self.table(path, "--csv", "--key", ",".join(KEYS), "--units", "si")
+        self.assertEqual(self.table(path, "--csv", "--quantity", ",".join(KEYS)), (head, rows))
+        head, rows = self.table(path, "--csv", "--quantity", ",".join(KEYS), "--units", "si")
         self.assertEqual((head[4], head[5]), ("mean_r [m]", "mean_alpha_dot [rad/s]"))
         length = lambda point: point["magnet.half_length"]
         self.compare(rows, known, {"mean_r": length, "mean_alpha_dot": lambda at: 312.5, "rms_slip": lambda at: 312.5 * length(at)})
@@ -74,7 +74,7 @@ class ExportKeys(Case):
         """Each point has a line, also where the sweep has not come to it: first, between others, and last."""
         path, known = self.sweep("drive.frequency=9Hz:16Hz:8")
         change(path, "DELETE FROM rows WHERE point IN (0, 3, 4, 6, 7)")
-        status, out, err = festoon("export", path, "--csv", "--key", "mean_r")
+        status, out, err = festoon("export", path, "--csv", "--quantity", "mean_r")
         head, *rows = csv.reader(io.StringIO(out))
         self.assertEqual((status, head), (0, ["drive.frequency [Hz]", "mean_r [l]", "status"]))
         self.assertIn("3 of 8 points have a row", err)
@@ -89,7 +89,7 @@ class ExportKeys(Case):
     def test_failed_runs(self):
         """Their status is why they failed, and the run is known to be there."""
         path, _ = self.sweep("start.r=0.95,2.5e-1", settings=("--set", "bead.radius=5.75mm"))
-        _, rows = self.table(path, "--csv", "--key", "mean_r")
+        _, rows = self.table(path, "--csv", "--quantity", "mean_r")
         self.assertEqual([(row[2], row[1] == "") for row in rows], [("done", False), ("bad input", True)])
 
     def test_every_result_read_back(self):
@@ -107,7 +107,7 @@ class ExportKeys(Case):
                  "Hz": 2 * math.pi, "m": 1, "m/s": 1, "T": 1, "N": 1, "J": 1, "W": 1}
         turns, told = {"mean_alpha_dot", "mean_alpha_dot_error", "mean_phi_dot"}, 0
         for choice, keys in itertools.product(("lab", "si"), (list(units)[i::4] for i in range(4))):
-            head, rows = self.table(path, "--csv", "--key", ",".join(keys), "--units", choice)
+            head, rows = self.table(path, "--csv", "--quantity", ",".join(keys), "--units", choice)
             for name, text in zip(head[1:-1], rows[0][1:-1]):
                 key, _, unit = name.rstrip("]").partition(" [")
                 factor = scaled.get(units[key])
@@ -131,14 +131,14 @@ class ExportKeys(Case):
         base.execute("UPDATE rows SET mean_r = mean_r + 1 WHERE point = 2")
         base.commit()
         base.close()
-        self.assertIn("point 2", self.refused("export", path, "--csv", "--key", "mean_r", "-o", self.path("t.csv")))
+        self.assertIn("point 2", self.refused("export", path, "--csv", "--quantity", "mean_r", "-o", self.path("t.csv")))
         self.assertFalse(os.path.exists(self.path("t.csv")))
 
     def test_bad_words(self):
         path, _ = self.sweep("drive.frequency=9Hz,10Hz")
         out = self.path("t.csv")
-        self.assertIn("nearest is mean_r", self.refused("export", path, "--csv", "--key", "mean_rr", "-o", out))
-        self.assertIn("a name is missing", self.refused("export", path, "--csv", "--key", "mean_r,,std_r", "-o", out))
+        self.assertIn("nearest is mean_r", self.refused("export", path, "--csv", "--quantity", "mean_rr", "-o", out))
+        self.assertIn("a name is missing", self.refused("export", path, "--csv", "--quantity", "mean_r,,std_r", "-o", out))
         self.assertIn("nearest is lab", self.refused("export", path, "--csv", "--units", "labs", "-o", out))
         self.assertIn("belong to --csv", self.refused("export", path, "--json", "--units", "lab", "-o", out))
         self.assertEqual(os.listdir(self.directory), ["a.db"])

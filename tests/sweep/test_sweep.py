@@ -278,15 +278,15 @@ class Exports(Case):
     def test_figures(self):
         self.good("sweep", *SHORT, "--over", "drive.frequency=9Hz:20Hz:12", "-o", self.path("line.db"))
         self.good("sweep", *SMALL, "-o", self.path("map.db"))
-        for name, words in (("line.db", []), ("line.db", ["--key", "festoons,max_b"]), ("map.db", []),
-                            ("map.db", ["--key", "mean_r"])):
+        for name, words in (("line.db", []), ("line.db", ["--quantity", "festoons,max_b"]), ("map.db", []),
+                            ("map.db", ["--quantity", "mean_r"])):
             status, _, err = festoon("plot", self.path(name), *words, "-o", self.path("figure.svg"))
             if status == 1 and "gnuplot" in err:
                 self.skipTest("no gnuplot")
             self.assertEqual(status, 0, err)
             self.assertIn("<svg", content_of(self.path("figure.svg"), "r")[:2000])
-        self.assertIn("mean_r", self.refused("plot", self.path("map.db"), "--key", "mean_rr", "-o", self.path("f.svg")))
-        self.refused("plot", self.path("map.db"), "--colour", "slip", "-o", self.path("f.svg"))
+        self.assertIn("mean_r", self.refused("plot", self.path("map.db"), "--quantity", "mean_rr", "-o", self.path("f.svg")))
+        self.refused("plot", self.path("map.db"), "--quantity", "slip", "-o", self.path("f.svg"))
 
 
 if __name__ == "__main__":

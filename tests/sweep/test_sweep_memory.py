@@ -75,7 +75,7 @@ class GoingOn(Measured):
             for name, words in (("go on", self.command(count)),
                                 ("nothing to do", self.command(count)),
                                 ("csv", ["export", self.path(f"{count}.db"), "--csv"]),
-                                ("keys", ["export", self.path(f"{count}.db"), "--csv", "--key", "regime"]),
+                                ("keys", ["export", self.path(f"{count}.db"), "--csv", "--quantity", "regime"]),
                                 ("json", ["export", self.path(f"{count}.db"), "--json", "-o", self.path("out.json")]),
                                 ("hdf5", ["export", self.path(f"{count}.db"), "--hdf5", "-o", self.path("out.h5")])):
                 status, size = peak(*words)
@@ -112,7 +112,7 @@ class Memory(Measured):
         self.assertEqual(status, 0)
         self.assertTrue(900 < events.rows(self.path("1000000000.db")) < 10000)
         self.assertLess(large - small, MEBIBYTES, (small, large))
-        status, exported = peak("export", self.path("1000000000.db"), "--csv", "--key", "regime")
+        status, exported = peak("export", self.path("1000000000.db"), "--csv", "--quantity", "regime")
         self.assertEqual(status, 0)
         self.assertLess(exported - small, MEBIBYTES, (small, exported))
 

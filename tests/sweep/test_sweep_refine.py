@@ -175,7 +175,7 @@ class Points(RefineCase):
         grid = Grid((33,), 3, values)
         told = self.sweep("a.db", words, "--refine", "3", "--refine-by", "symmetry")
         self.check("a.db", grid, told, words)
-        lines = self.good("export", self.path("a.db"), "--csv", "--key", "symmetry").splitlines()[1:]
+        lines = self.good("export", self.path("a.db"), "--csv", "--quantity", "symmetry").splitlines()[1:]
         self.assertEqual({line.split(",")[1] for line in lines}, {"S1", "S2", ""})
         self.assertLess(told["computed"], 30)
         festoons = self.values(words, "festoons")  # known where the symmetry is
@@ -272,12 +272,12 @@ class OneOutcome(RefineCase):
         told = self.sweep("straight.db", MAP)
         self.assertEqual((told["computed"], told["rows"]), (told["points"], told["points"]))
         self.assertEqual(self.lines("straight.db"), self.whole(MAP))
-        told = self.good("export", "--key", "regime", "--csv", self.path("straight.db"))
+        told = self.good("export", "--quantity", "regime", "--csv", self.path("straight.db"))
         self.assertEqual(told.count("\n"), 33 * 22 + 1)
 
     def test_a_damaged_line(self):
         change(self.path("straight.db"), "UPDATE festoon SET value = replace(value, '3', '2') WHERE key = 'refine'")
-        for words in (("sweep", *MAP, "--refine", "3", "-o"), ("plot",), ("export", "--key", "regime", "--csv")):
+        for words in (("sweep", *MAP, "--refine", "3", "-o"), ("plot",), ("export", "--quantity", "regime", "--csv")):
             words = (*words, self.path("straight.db")) + (("-o", self.path("x.svg")) if words == ("plot",) else ())
             self.assertIn("damaged", self.refused(*words))
 
@@ -286,7 +286,7 @@ class OneOutcome(RefineCase):
         self.sweep("other.db", other, "--refine", "2")
         change(self.path("straight.db"), f"ATTACH '{self.path('other.db')}' AS other", "UPDATE festoon SET value = (SELECT "
                "value FROM other.festoon WHERE key = 'refine') WHERE key = 'refine'")
-        self.assertIn("damaged", self.refused("export", "--key", "regime", "--csv", self.path("straight.db")))
+        self.assertIn("damaged", self.refused("export", "--quantity", "regime", "--csv", self.path("straight.db")))
 
 
 class Terminal(RefineCase):
@@ -483,24 +483,24 @@ class Figures(RefineCase):
         words = [*CHEAP, *over("drive.frequency=10:12:9", "model.kappa=1:1.2:11")]
         told = self.sweep("a.db", words, "--refine", "2", "--refine-by", "mean_r:9")
         self.assertEqual(told["computed"], 3 * 4)
-        _, blocks = self.boxes("a.db", "--key", "frequency_hz", "--units", "lab")
+        _, blocks = self.boxes("a.db", "--quantity", "frequency_hz", "--units", "lab")
         self.assertEqual(len(blocks["cells"]), 9 * 11)
         for _, y, *_, value in blocks["cells"]:
             self.assertAlmostEqual(value, y, 4)
 
     def test_numbers_are_interpolated(self):
         self.sweep("a.db", MAP, "--refine", "3")
-        script, blocks = self.boxes("a.db", "--key", "mean_r", "--units", "scaled")
+        script, blocks = self.boxes("a.db", "--quantity", "mean_r", "--units", "scaled")
         self.assertIn("interpolated", script)
-        known = self.good("export", self.path("a.db"), "--csv", "--key", "mean_r").count("\n") - 1
+        known = self.good("export", self.path("a.db"), "--csv", "--quantity", "mean_r").count("\n") - 1
         self.assertGreater(len(blocks["cells"]), 2 * known)
 
     def test_curves_show_the_points(self):
         words = [*CHEAP, *over("drive.frequency=1Hz:40Hz:70")]
         told = self.sweep("a.db", words, "--refine", "3")
-        _, blocks = self.boxes("a.db", "--key", "mean_r")
+        _, blocks = self.boxes("a.db", "--quantity", "mean_r")
         self.assertEqual(sum(len(block) for block in blocks.values()), told["computed"])
-        chosen = self.good("export", self.path("a.db"), "--csv", "--key", "mean_r")
+        chosen = self.good("export", self.path("a.db"), "--csv", "--quantity", "mean_r")
         self.assertEqual(chosen.count("\n"), 1 + told["computed"])
 
 

@@ -55,10 +55,10 @@ class Sweeps(Case):
         self.good(*words, "--threads", "2", "-o", other)
         self.assertEqual(self.rows(other), before)
         self.assertIn("plate.bowl_radius", self.refused(*words, "--set", "plate.bowl_radius=1 m", "-o", name))
-        lines = self.good("export", name, "--csv", "--key", "regime,frame,mean_r", "--units", "lab").splitlines()
+        lines = self.good("export", name, "--csv", "--quantity", "regime,frame,mean_r", "--units", "lab").splitlines()
         self.assertEqual(lines[0], "drive.frequency [Hz],regime,frame,mean_r [mm],status")
         self.assertEqual(lines[1].split(",")[2::2], ["turning", "done"])
-        self.assertIn("of a bead in a world, have no std_r", self.refused("export", name, "--csv", "--key", "std_r"))
+        self.assertIn("of a bead in a world, have no std_r", self.refused("export", name, "--csv", "--quantity", "std_r"))
         self.good("export", name, "--hdf5", "-o", self.path("s.h5"))
         self.good("plot", name, "-o", self.path("s.svg"))
 
@@ -85,7 +85,7 @@ class Sweeps(Case):
                 for column, key in (("height_mm", "height_mm"), ("tilt_deg", "tilt_deg"), ("gap_mm", "gap_mm")):
                     self.assertEqual(row[f"{side}_{column}"], best and best[key])
                 self.assertEqual(row[f"{side}_growth_per_s"], best and best["eigenvalues_per_s"][0][0])
-        for words_of_key in ((), ("--key", "above"), ("--key", "below_height_mm")):
+        for words_of_key in ((), ("--quantity", "above"), ("--quantity", "below_height_mm")):
             figure = self.path("f.svg")
             self.good("plot", name, *words_of_key, "-o", figure)
             with open(figure, encoding="utf-8") as file:
@@ -94,7 +94,7 @@ class Sweeps(Case):
                 self.assertIn(word, text)
         self.assertIn("tells of levitation", self.refused(*words, "-o", name))
         self.assertIn("36 points, 0 of them new", self.good(*words, "--levitation", "-o", name))
-        self.assertIn("places where a bead floats, have no mean_r", self.refused("export", name, "--csv", "--key", "mean_r"))
+        self.assertIn("places where a bead floats, have no mean_r", self.refused("export", name, "--csv", "--quantity", "mean_r"))
 
     def test_hysteresis_of_the_lock(self):
         """Carried up, the lock of a wave holds to Om0^2/C; carried down, the bead is caught again at (4/pi) Om0."""

@@ -111,8 +111,8 @@ class Formats(Measure):
 
     def test_which_track(self):
         text = tracks.trackpy(self.ROWS)
-        self.assertIn('the nearest is 7 (choices: 7, 3)', self.refused(text, "--fps", "240", "--track", "6"))
-        self.check(text, "--fps", "240", "--track", "7")
+        self.assertIn('the nearest is 7 (choices: 7, 3)', self.refused(text, "--fps", "240", "--only", "6"))
+        self.check(text, "--fps", "240", "--only", "7")
 
     def test_every_second_frame(self):
         lines = tracks.own(self.ROWS).splitlines()
@@ -196,7 +196,7 @@ class BadFiles(Measure):
                                (("--from", "240"), "--from: the track has frames 0 to 239: of those asked for it has none"),
                                (("--to", "0"), "--to: the track has frames 0 to 239: of those asked for it has one"),
                                (("--from", "2", "--to", "1"), "none"), (("--from", "-1"), "--from"), (("--to", "1.5"), "--to"),
-                               (("--track", "b"), "no track")]:
+                               (("--only", "b"), "no track")]:
             with self.subTest(options=options):
                 self.assertIn(words, self.refused(good, *options))
 

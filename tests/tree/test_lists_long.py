@@ -23,7 +23,7 @@ CHOICES = {"MATERIALS": "bead.material", "DYNAMICS": "model.dynamics", "PATCHES"
            "UNTILS": "run.until", "PARTS": "magnet.parts[0].kind", "BEADS_METHODS": "run.method", "PLATE_SHAPES": "plate.shape",
            "PART_MOTIONS": "magnet.parts[0].motion", "WAVEFORMS": "drive.waveform", "FRAMES": "world.frame"}
 OPTIONS = {"BRANCH_KINDS": "branch --kind", "FOLLOWED_SPECIALS": "branch --follow", "FIGURES": "plot --kind",
-           "FIELDS": "field --map", "SHOWN": "run --units", "ARITHMETICS": "sweep --arithmetic", "CARRIES": "sweep --carry",
+           "FIELDS": "field --quantity", "SHOWN": "run --units", "ARITHMETICS": "sweep --arithmetic", "CARRIES": "sweep --carry",
            "EXPORTS": "export --dummy-exports"}
 PYTHON = {"REGIMES": "runs.REGIMES", "STOPS": "flows.STOPS", "SYMMETRIES": "runs.SYMMETRIES", "BRANCH_KINDS": "branches.KINDS", "SPECIALS":
           "branches.SPECIALS", "FOLLOWED_SPECIALS": "branches.SPECIALS", "ENDS": "branches.ENDS", "FIGURES": "figures.KINDS",
@@ -124,9 +124,9 @@ class Lists(unittest.TestCase):
                      "run.periods=20", "-o", "map.db")
         name = self.names["REGIMES"]
         change(str(self.folder / "map.db"), ("UPDATE rows SET regime = ?", (name,)))
-        self.assertEqual(self.command(self.festoon, "export", "map.db", "--csv", "--key", "regime").count(name), 4)
+        self.assertEqual(self.command(self.festoon, "export", "map.db", "--csv", "--quantity", "regime").count(name), 4)
         if shutil.which("gnuplot"):
-            self.command(self.festoon, "plot", "map.db", "--key", "regime", "-o", "map.svg")
+            self.command(self.festoon, "plot", "map.db", "--quantity", "regime", "-o", "map.svg")
             self.assertIn(name, (self.folder / "map.gp").read_text(encoding="utf-8"))
 
     def test_python(self):

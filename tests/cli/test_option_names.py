@@ -1,0 +1,203 @@
+"""Names of options: an old name gives what the new one gives, with a sentence, and is offered nowhere; the manual page
+says each option once and gives a command exactly the options that it takes, with the words of its help.
+
+tests: cli/options.c cli/help.c cli/completion_offer.c cli/schema.c
+labels: slow"""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import unittest
+
+import events
+import tracks
+from sweep_tools import Case, FESTOON
+
+SOURCE_DIR = os.environ["SOURCE_DIR"]
+BUILD_DIR = os.environ["BUILD_DIR"]
+
+SHORT = ["--set", "run.periods=6", "--set", "run.discard=2"]
+SWEEP = ["--over", "drive.frequency=10Hz:11Hz:2", "--over", "model.kappa=1.4:1.6:3"]
+
+# A command for each old name: what stands before it, its value if it has one, and what it writes.
+USES = {
+    ("plot", "key"): (["plot", "../s.db", "-o", "f.svg"], "mean_r", "gnuplot"),
+    ("plot", "colour"): (["plot", "../t.csv", "-o", "f.svg"], "slip", "gnuplot"),
+    ("plot", "observable"): (["plot", "../b.json", "-o", "f.svg"], "slip", "gnuplot"),
+    ("plot", "at"): (["plot", "../s.db", "-o", "f.svg"], "model.kappa=1.5", "gnuplot"),
+    ("plot", "arrows"): (["plot", "../t.csv", "-o", "f.svg"], None, "gnuplot"),
+    ("export", "key"): (["export", "../s.db", "--csv"], "mean_r,regime", None),
+    ("movie", "colour"): (["movie", "../t.csv", "-o", "frames", "--to", "1", "--fps", "2", "--size", "160x160"], "n_z",
+                          None),
+    ("field", "map"): (["field", "-o", "f.svg"], "load", "gnuplot"),
+    ("measure", "track"): (["measure", "../many.csv", "--fps", "240", "--json"], "8", None),
+    ("fit", "compare"): (["fit", "../points.csv", "--free", "model.kappa", "--json"], None, None),
+    ("run", "fps"): (["run", *SHORT, "--csv", "r.csv"], "100", None),
+    ("track", "picture"): (["track", "../film.mp4", "-o", "t.csv"], "p.png", "ffmpeg"),
+}
+
+
+def of_film(folder):
+    """A film of a bead, and a table of points, which few of the commands need."""
+    subprocess.run([FESTOON, "movie", "t.csv", "--camera", "--to", "3", "--fps", "60", "--size", "320x240", "-o", "film.mp4"],
+                   cwd=folder, check=True, capture_output=True, timeout=events.HANG)
+
+
+class OldNames(Case):
+    def renamed(self):
+        with open(os.path.join(SOURCE_DIR, "src", "cli", "options.c"), encoding="utf-8") as file:
+            table = re.search(r"\} renamed\[\] = \{(.*?)\};", file.read(), re.S)[1]
+        rows = re.findall(r'\{"(\w+)", "([\w-]+)", "([\w-]*)"\}', table)
+        self.assertEqual(len(rows), table.count("{"))
+        return rows
+
+    def done(self, folder, *words):
+        """Standard output, the files and the messages of a command in a folder of its own."""
+        os.mkdir(self.path(folder))
+        done = subprocess.run([FESTOON, *words], cwd=self.path(folder), capture_output=True, check=False,
+                              timeout=events.HANG)
+        files = {}
+        for at, _, names in os.walk(self.path(folder)):
+            for name in names:
+                with open(os.path.join(at, name), "rb") as file:
+                    files[os.path.relpath(os.path.join(at, name), self.path(folder))] = file.read()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout, files, done.stderr.decode()
+
+    def test_they_give_the_same(self):
+        self.good("run", *SHORT, "--csv", self.path("t.csv"))
+        self.good("sweep", *SHORT, *SWEEP, "-o", self.path("s.db"))
+        self.good("branch", "--kind", "locked", "--over", "drive.omega=0.06:0.07", "-o", self.path("b.json"))
+        with open(self.path("points.csv"), "w", encoding="utf-8") as file:
+            file.write("frequency [Hz],mean_r [mm],mean_r_error [mm]\n" + "".join(
+                f"{f},{r},0.2\n" for f, r in ((12, 19.1), (15, 20.3), (19, 20.5))))
+        with open(self.path("many.csv"), "w", encoding="utf-8") as file:
+            text = tracks.trackpy(tracks.places())
+            rows = [row[:-1] + "8" for row in text.splitlines() if row.endswith(",7")]
+            file.write(text + "\n".join(rows[:2 * len(rows) // 3]) + "\n")
+        rows = self.renamed()
+        self.assertEqual({(command, old) for command, old, _ in rows}, set(USES))
+        for command, old, new in rows:
+            words, value, helper = USES[command, old]
+            with self.subTest(command=command, old=old):
+                if helper and not shutil.which(helper):
+                    continue
+                if command == "track":
+                    of_film(self.directory)
+                behind = [] if value is None else [value]
+                now = self.done(f"{command}-{old}-new", *words, *([f"--{new}"] if new else []), *(behind if new else []))
+                for form in ([f"--{old}", *behind], [f"--{old}={value}"] if behind else []):
+                    if form:
+                        was = self.done(f"{command}-{old}-{len(form)}", *words, *form)
+                        told = f"festoon {command}: --{old} " + (f"is now --{new};" if new else "has no effect any more")
+                        self.assertEqual(was[0:2], now[0:2])
+                        self.assertEqual(was[2].count(told), 1, was[2])
+                        self.assertNotIn("next version", now[2])
+                # A value that is missing is still missing, and the name is offered nowhere.
+                if behind:
+                    self.assertIn(f"--{new} needs a value", self.refused(*words, f"--{old}"))
+                self.assertNotRegex(self.good(command, "--help"), rf"--{old}\b" if old != "compare" else "--compare ")
+                self.assertNotIn(f"--{old}\t", self.good("completion", "offer", command, "--"))
+
+    def test_they_are_names_of_one_command_alone(self):
+        self.assertIn("unknown option --colour", self.refused("run", "--colour", "slip"))
+        self.assertIn("unknown option --key", self.refused("movie", "t.csv", "--key", "slip"))
+
+
+def unescaped(text):
+    return re.sub(r"\\f[BIR]", "", text).replace("\\-", "-").replace("\\&", "").replace("\\e", "\\")
+
+
+class Manual(Case):
+    """docs/festoon.1, as it was built."""
+
+    def setUp(self):
+        super().setUp()
+        with open(os.path.join(BUILD_DIR, "docs", "festoon.1"), encoding="utf-8") as file:
+            page = unescaped(file.read())
+        self.sections = dict(re.findall(r"^\.SH (.*?)\n(.*?)(?=^\.SH|\Z)", page, re.M | re.S))
+        self.commands = re.findall(r"^  ([a-z]+) +[A-Z]", self.good("--help"), re.M)
+
+    def entries(self, section):
+        return re.findall(r"^\.[TH]P(?: \d+)?\n(.*?)\n(.*?)(?=^\.(?:[TH]P|PD)\b|\Z)", self.sections[section], re.M | re.S)
+
+    def told(self, section):
+        """{command: {option: (value, words)}} of a section; each option has one entry."""
+        told, seen = {command: {} for command in self.commands}, set()
+        for tag, body in self.entries(section):
+            if not tag.startswith("-"):
+                continue
+            name, value = re.fullmatch(r"(?:-\w, )?--([\w-]+)(?: (\S+))?", tag).groups()
+            self.assertNotIn(name, seen)
+            seen.add(name)
+            for meaning in body.split(".br\n"):
+                commands, own, words = re.fullmatch(r"((?:[a-z]+, )*[a-z]+)(?: (\S+))?: (.*)", meaning.strip(), re.S).groups()
+                for command in commands.split(", "):
+                    self.assertNotIn(name, told[command], command)
+                    told[command][name] = (value or own, " ".join(words.split()))
+        return told
+
+    def helped(self, command):
+        """The options of the help, and those of its part for experts."""
+        parts = self.good(command, "--help").split("options:\n")[1].split("\nexpert:\n")
+        found = []
+        for part in parts + [""] * (2 - len(parts)):
+            rows = re.findall(r"^ {2,3}(?:-\w, )?--([\w-]+)(?: (\S+))?\s+(.*?)(?=^ {2,3}\S|\Z)", part, re.M | re.S)
+            found.append({name: (value or None, " ".join(words.split())) for name, value, words in rows})
+        for common in ("quiet", "help"):
+            del found[0][common]
+        return found
+
+    def test_it_says_what_the_help_says(self):
+        usual, expert = self.told("OPTIONS"), self.told("EXPERT OPTIONS AND PARAMETERS")
+        for command in self.commands:
+            self.assertEqual([usual[command], expert[command]], self.helped(command), command)
+
+    def test_a_command_takes_what_it_says_and_nothing_else(self):
+        usual, expert = self.told("OPTIONS"), self.told("EXPERT OPTIONS AND PARAMETERS")
+        names = {name for told in (usual, expert) for options in told.values() for name in options}
+        self.assertGreater(len(names), 60)
+        old = {(command, name) for command, name in USES}
+        for command in self.commands:
+            taken = {**usual[command], **expert[command]}
+            words = [f"--{name}=1" if value else f"--{name}" for name, (value, _) in taken.items()]
+            self.assertIn("unknown option --no-such", self.refused(command, "--quiet", *words, "--no-such"), command)
+            for name in names - set(taken):
+                if (command, name) not in old:
+                    self.assertIn(f"unknown option --{name}", self.refused(command, f"--{name}"), command)
+
+    def test_it_has_every_command_and_parameter_once(self):
+        entries = self.entries("COMMANDS")
+        self.assertEqual([tag.split()[1] for tag, _ in entries], self.commands + ["help", "completion"])
+        for command, (tag, body) in zip(self.commands, entries):
+            usage, *told = self.good(command, "--help").split("\noptions:\n")[0].split("\n\n")
+            self.assertEqual(tag.split()[1:], usage.split()[2:])
+            self.assertEqual(body.split(), " ".join(told).split(), command)
+        keys = [tag.split()[1] for part in ("PARAMETERS", "EXPERT OPTIONS AND PARAMETERS")
+                for tag, _ in self.entries(part) if tag.startswith(".B ")]
+        schema = [row for row in json.loads(self.good("schema", "--json")) if "[" not in row["key"]]
+        self.assertEqual(keys, [row["key"] for row in sorted(schema, key=lambda row: row["expert"])])
+        self.assertEqual([row["key"] for row in schema if row["expert"]],
+                         ["magnet.checksum", "model.eps", "model.h", "model.lambda"])
+        self.assertEqual(self.good("schema").split("\nExpert:\n")[1].count("model."), 4)
+
+    def test_it_names_no_other_option(self):
+        """Nor does the text around the tables."""
+        known = {"help", "version", "quiet", "mpi"} | {
+            name for told in (self.told("OPTIONS"), self.told("EXPERT OPTIONS AND PARAMETERS"))
+            for options in told.values() for name in options}
+        text = "\n".join(self.sections.values())
+        self.assertEqual(set(re.findall(r"(?<![\w-])--([a-z][a-z0-9-]*)", text)) - known, set())
+
+    @unittest.skipUnless(shutil.which("man"), "there is no man")
+    def test_it_is_short(self):
+        done = subprocess.run(["man", "-l", os.path.join(BUILD_DIR, "docs", "festoon.1")], capture_output=True, text=True,
+                              env={**os.environ, "MANWIDTH": "80"}, check=False)
+        if done.returncode == 0:
+            self.assertLess(done.stdout.count("\n"), 745)
+
+
+if __name__ == "__main__":
+    unittest.main()
