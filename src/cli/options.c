@@ -12,15 +12,17 @@ const option common_options[] = {
     {NULL, '\0', NULL, NULL},
 };
 
-/* The names that options had in the version before.  They are taken until the next one, with a sentence; what has no
- * new name is left aside. */
-static const struct {
+/* The names that options had before.  Scripts go on with them; who types one is told the new name.  What has no new
+ * name is left aside. */
+typedef struct old_name {
     const char *command, *old, *now;
-} renamed[] = {
-    {"plot", "key", "quantity"},   {"plot", "colour", "quantity"},  {"plot", "observable", "quantity"},
-    {"export", "key", "quantity"}, {"movie", "colour", "quantity"}, {"field", "map", "quantity"},
-    {"plot", "at", "only"},        {"measure", "track", "only"},    {"fit", "compare", "rivals"},
-    {"run", "fps", "sample-rate"}, {"track", "picture", "figure"},  {"plot", "arrows", ""},
+    int draws_path; /* with it the path is drawn, of a ramp too */
+} old_name;
+static const old_name renamed[] = {
+    {"plot", "key", "quantity", 0},   {"plot", "colour", "quantity", 1},  {"plot", "observable", "quantity", 0},
+    {"export", "key", "quantity", 0}, {"movie", "colour", "quantity", 0}, {"field", "map", "quantity", 0},
+    {"plot", "at", "only", 0},        {"measure", "track", "only", 0},    {"fit", "compare", "rivals", 0},
+    {"run", "fps", "sample-rate", 0}, {"track", "picture", "figure", 0},  {"plot", "arrows", "", 1},
 };
 
 static const option gone = {"", '\0', NULL, NULL};
@@ -38,15 +40,23 @@ static const option *find_in(const option *table, const char *name, size_t lengt
     return NULL;
 }
 
+static const old_name *find_old(const command *of, const char *name, size_t length)
+{
+    for (size_t i = 0; i < sizeof renamed / sizeof *renamed; ++i)
+        if (strcmp(renamed[i].command, of->name) == 0 && is_called(renamed[i].old, name, length))
+            return &renamed[i];
+    return NULL;
+}
+
 /* The row of a command for "--name", which may be its old name (length counts the name alone), or for "-o". */
 static const option *find_long(const command *of, const char *name, size_t length)
 {
     const option *row = find_in(of->options, name, length);
     if (!row)
         row = find_in(common_options, name, length);
-    for (size_t i = 0; !row && i < sizeof renamed / sizeof *renamed; ++i)
-        if (strcmp(renamed[i].command, of->name) == 0 && is_called(renamed[i].old, name, length))
-            row = *renamed[i].now ? find_in(of->options, renamed[i].now, strlen(renamed[i].now)) : &gone;
+    const old_name *before = row ? NULL : find_old(of, name, length);
+    if (before)
+        row = *before->now ? find_in(of->options, before->now, strlen(before->now)) : &gone;
     return row;
 }
 
@@ -59,13 +69,14 @@ static const option *find_letter(const option *table, char letter)
 }
 
 /* Say that an option has another name now, or none. */
-static void tell_of_new_name(const command *of, const char *old, size_t length, const option *row)
+static void tell_of_new_name(const old_name *before, arguments *given)
 {
-    (void)fprintf(stderr, "festoon %s: --%.*s ", of->name, (int)length, old);
-    if (row == &gone)
-        (void)fputs("has no effect any more, and is refused from the next version on\n", stderr);
+    given->draws_path |= before->draws_path;
+    (void)fprintf(stderr, "festoon %s: --%s ", before->command, before->old);
+    if (*before->now)
+        (void)fprintf(stderr, "is now --%s\n", before->now);
     else
-        (void)fprintf(stderr, "is now --%s; the old name goes with the next version\n", row->name);
+        (void)fputs("has no effect any more\n", stderr);
 }
 
 /* The parameter that has this name without its group: who types --frequency means drive.frequency. */
@@ -132,7 +143,7 @@ static fst_status read_option(const command *of, int count, char **words, int *a
         size_t length = strcspn(word + 2, "=");
         row = find_long(of, word + 2, length);
         if (row && !is_called(row->name, word + 2, length))
-            tell_of_new_name(of, word + 2, length, row);
+            tell_of_new_name(find_old(of, word + 2, length), given);
         if (word[2 + length] == '=')
             value = word + 2 + length + 1;
     } else {
@@ -162,8 +173,7 @@ static fst_status read_option(const command *of, int count, char **words, int *a
 
 fst_status read_arguments(const command *of, int count, char **words, arguments *given, fst_error *error)
 {
-    given->option_count = 0;
-    given->operand_count = 0;
+    given->option_count = given->operand_count = given->draws_path = 0;
     int only_operands = 0;
     for (int at = 0; at < count; ++at) {
         const char *word = words[at];

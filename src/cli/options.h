@@ -31,6 +31,7 @@ typedef struct arguments {
     int option_count;
     const char *operands[OPERAND_LIMIT];
     int operand_count;
+    int draws_path;          /* an option of before that asked for the path, whatever the trajectory holds */
     fst_bead_params **beads; /* of a scene that lists many, which are freed after the command */
     fst_field_map **map;     /* the map of the scene, which is freed after the command */
 } arguments;

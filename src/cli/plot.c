@@ -264,7 +264,8 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         status = fst_trajectory_read(path, &table, error);
     if (status != FST_OK)
         return status;
-    if (!option_value(given, "kind") && !figure.inset && isnan(figure.zoom[0]) && !option_value(given, "frame"))
+    if (!option_value(given, "kind") && !given->draws_path && !figure.inset && isnan(figure.zoom[0]) &&
+        !option_value(given, "frame"))
         figure.kind = fst_figure_kind_of(&table);
     status = read_columns(given, &figure, words, error);
     if (status == FST_OK)

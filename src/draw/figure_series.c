@@ -336,8 +336,6 @@ static void put_windows(const fst_view *view, const chosen *c, const double *tur
             from = row;
         }
     }
-    if (w->count == 0)
-        put_window(c, omega, factor, view->first, view->last, w);
 }
 
 static fst_status fill_ramp(const fst_view *view, const chosen *c, const windows *w, const char *x_label,
@@ -394,5 +392,10 @@ fst_status fst_chart_ramp(const fst_table *table, const fst_figure_options *opti
         return status;
     const fst_quantity drive = fst_view_quantity(&view, info);
     put_windows(&view, &c, turns, bead_angle, omega, drive.factor, &w);
+    if (w.count < 2)
+        return fst_fail(
+            error, FST_BAD_INPUT, "fst_figure_options.kind",
+            "what is shown of the ramp is too short for two means over whole turns of Phi, of at least two "
+            "drive periods each: the kinds path and time show it");
     return fill_ramp(&view, &c, &w, drive.label, chart, error);
 }

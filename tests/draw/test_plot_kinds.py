@@ -207,6 +207,7 @@ class Series(Case):
                 ("nearest is section", ["--kind", "secton"]),
                 ("nearest is lab", ["--units", "labs"])):
             self.refused(wanted, "plot", track, *words)
+        self.refused("too short for two means", "plot", self.folder / "ramp.csv", "--from", "5", "--to", "8")
         self.refused("never passes", "plot", self.folder / "slow.csv", "--kind", "section")
         self.refused("choose one of given, lab, scaled, si", "field", "--at", "1,1", "--units", "mm")
 
