@@ -20,7 +20,7 @@ typedef struct command {
     int much_output;     /* its standard output may be larger than memory */
     int has_helpers;     /* it starts other programs, which a signal from the terminal also reaches */
     const char *program; /* the program that does it, "festoon-paper"; NULL: this one, by the next line */
-    /* Do it.  What is written to `out` reaches standard output only if this returns FST_OK. */
+    /* Do it.  What is written to `out` reaches standard output only if this returns FST_OK (or after output_keep()). */
     fst_status (*perform)(const arguments *given, FILE *out, fst_error *error);
 } command;
 
