@@ -250,6 +250,17 @@ FST_API fst_status fst_figure_field(const fst_params *params, fst_shown_units un
  * axis. */
 typedef enum { FST_CARRIES(FST_ROW_ENUM) FST_CARRY_COUNT } fst_carry;
 
+/* What became of a bead: of how many points, how often the equations of motion were evaluated for all of them, and how
+ * many drive periods their runs took together. */
+typedef struct fst_sweep_outcome {
+    int64_t points, rhs_calls;
+    double periods;
+} fst_sweep_outcome;
+enum { FST_SWEEP_OUTCOMES = FST_REGIME_COUNT + 1 };
+
+/* The name of a place in fst_sweep_counts.outcomes. */
+FST_API const char *fst_sweep_outcome_name(fst_row_kind kind, int place);
+
 /* How far a sweep is, or how it ended. */
 typedef struct fst_sweep_counts {
     int64_t points, there; /* points of the grid, and how many of them have a row */
@@ -269,6 +280,10 @@ typedef struct fst_sweep_counts {
     int repaired;
     int64_t lost;
     int64_t begun_anew; /* runs begun anew, because what was saved of them after a while is damaged */
+    /* Of the rows that this call added, by fst_regime, of several beads by fst_beads_outcome; the last place has runs that
+     * failed, of which only the number is known. */
+    fst_row_kind kind;
+    fst_sweep_outcome outcomes[FST_SWEEP_OUTCOMES];
 } fst_sweep_counts;
 
 typedef struct fst_sweep_options {

@@ -108,13 +108,6 @@ typedef struct waiting_output {
     fst_printed printed; /* its stream is NULL where it waits in a file */
 } waiting_output;
 
-static int is_kept; /* output_keep() was called */
-
-void output_keep(void)
-{
-    is_kept = 1;
-}
-
 static fst_status begin_output(waiting_output *out, int much_output, fst_error *error)
 {
     *out = (waiting_output){.stream = much_output ? spool_open() : NULL};
@@ -132,7 +125,7 @@ static fst_status end_output(waiting_output *out, fst_status status, fst_error *
     if (!text && !spooled && status == FST_OK)
         status =
             fail(error, FST_IO, "standard output", "there is no room to collect it, in memory or in $TMPDIR");
-    if (status == FST_OK || (is_kept && text))
+    if (status == FST_OK || (output_is_kept() && text))
         reason = text ? write_standard_output(text, out->printed.size) : spool_to_standard_output(spool);
     if (reason)
         status = fail(error, FST_IO, "standard output", "writing failed: %s", strerror(reason));

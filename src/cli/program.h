@@ -8,9 +8,6 @@
  */
 fst_status perform_command(const command *wanted, int count, char **words, FILE *out, fst_error *error);
 
-/* Standard output is written even if the command fails from here on: a table of several files says which failed. */
-void output_keep(void);
-
 /* Prepare the terminal, perform the words of main(), and pass the output on, or the error; returns the exit
  * status. `much_output`: the output may be larger than memory. */
 int run_program(int count, char **words, int much_output,

@@ -3,7 +3,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "cli/program.h"
+#include "cli/command.h"
 #include "cli/terminal.h"
 
 enum { SHOWN_DOUBTS = 8 };
