@@ -116,6 +116,16 @@ class Looks(unittest.TestCase):
         drawn = xml.etree.ElementTree.parse(FOLDER / "f.svg").getroot()
         self.assertIn(TITLE, ["".join(text.itertext()).strip() for text in drawn.iter("{http://www.w3.org/2000/svg}text")])
 
+    def test_quotes_at_all_places(self):
+        """gnuplot ends a string at two quotes that begin it, and at the second of two pairs."""
+        for title in ("'first", "last'", "two''in a row", "'", "''", "' '''x''''y' '", "'.system('touch t').'", '"', "\\'", "'\\"):
+            with self.subTest(title):
+                self.draw(self.usual[4][0], "--title", title)
+                drawn = xml.etree.ElementTree.parse(FOLDER / "f.svg").getroot()
+                said = ["".join(text.itertext()).strip() for text in drawn.iter("{http://www.w3.org/2000/svg}text")]
+                self.assertIn(title, said)
+        self.assertFalse(os.path.exists(FOLDER / "t"))
+
     def test_long_titles(self):
         """Five lines at most, none wider than the figure, and dots where more was wanted; a line end ends a line."""
         words = self.usual[4][0]
