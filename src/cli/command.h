@@ -71,7 +71,7 @@ const command *find_command(const char *name);
     {"title", '\0', "TEXT", "what stands above the figure; an empty text: nothing"},                           \
     {                                                                                                          \
         "size", '\0', "WxH",                                                                                   \
-            "width and height, 86mmx60mm, or the width alone (127mm); letters grow with it, and a PNG\n"       \
+            "width and height, 86mmx60mm, or the width alone (127mm); letters grow with it, and a PNG "        \
             "has 192 pixels an inch"                                                                           \
     }
 

@@ -29,7 +29,7 @@ static const option options[] = {
     {"to", '\0', "P", "last drive period shown"},
     {"zoom", '\0', "X0,X1,Y0,Y1", "the part of the plate shown, in mm"},
     {"points", '\0', "DATA.csv",
-     "of sweeps and branches over the drive: lay measured points with errors over them, and tell chi^2; again\n"
+     "of sweeps and branches over the drive: lay measured points with errors over them, and tell chi^2; again "
      "for more tables"},
     {"runs", EXPERT, "FILE", "lay runs over a branch as dots, from documents of festoon run --json"},
     {NULL, '\0', NULL, NULL},

@@ -68,8 +68,8 @@ def make(name, scene):
         (".h5", ["--kind", "radius-field"], scene), (".h5", ["--kind", "time"], scene), (".h5", ["--kind", "section"], scene),
         ("-ramp.h5", [], scene), ("-two.h5", [], beads), ("-two.h5", ["--kind", "groups"], beads),
         ("-wave.h5", ["--kind", "path"], wave), ("-wave.h5", ["--kind", "lag"], wave), ("-one.db", [], scene),
-        ("-few.db", ["--key", "mean_r"], scene), ("-few.db", ["--kind", "map"], scene),
-        ("-few.db", ["--kind", "map", "--key", "mean_r"], scene), (".json", [], still), (".json", ["--observable", "multipliers"], still),
+        ("-few.db", ["--quantity", "mean_r"], scene), ("-few.db", ["--kind", "map"], scene),
+        ("-few.db", ["--kind", "map", "--quantity", "mean_r"], scene), (".json", [], still), (".json", ["--quantity", "multipliers"], still),
         ("-one.db", ["--points", FOLDER / "points.csv"], scene), ("-one.db", [FOLDER / f"{name}-one.db"], scene),
     )] + [(["field", *keys(scene)], scene)]
 
