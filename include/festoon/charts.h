@@ -82,6 +82,8 @@ typedef struct fst_chart_mark {
 
 typedef struct fst_chart {
     const char *title, *about; /* what is shown, and of what (NULL: no more) */
+    double size[2]; /* of the figure, width and height in m; 0: 0.127, and as high as it needs.  Letters
+                                  grow with the width; a PNG has 192 pixels an inch */
     const char *x_label;
     double x_low, x_high;
     int x_logarithmic;
@@ -192,7 +194,7 @@ struct fst_field_options;
 
 /* A map of the magnet's field, or of what it does to a bead, on a plane over the magnet. */
 typedef struct fst_field_picture {
-    char title[160], about[160], x_label[64], y_label[64], colour_label[96];
+    char title[160], about[340], x_label[64], y_label[64], colour_label[96];
     double box[4];        /* x0 x1 y0 y1 */
     size_t columns, rows; /* of places spread evenly from edge to edge of the box */
     double *values;       /* at row * columns + column; NAN in a part of the magnet */

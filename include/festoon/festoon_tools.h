@@ -197,6 +197,7 @@ typedef struct fst_figure_options {
         to; /* drive periods shown; NAN: from the discard, for as long as makes a good picture; all of a ramp */
     double zoom[4];    /* x0 x1 y0 y1 in mm; NAN: everything */
     const char *title; /* NULL: made from the scene */
+    double size[2];    /* as in fst_chart */
     /* Columns that figures of time, sections and ramps show; NULL ends a shorter list, an empty one is chosen.
      */
     const char *keys[FST_FIGURE_KEYS];
@@ -228,6 +229,8 @@ typedef struct fst_field_options {
     double height; /* over the magnet's reference plane, in l; NAN: that of a bead's centre */
     fst_shown_units units;
     double half_width, half_height; /* of the map, in l; NAN: what shows the magnet */
+    const char *title;              /* NULL: made from what is shown */
+    double size[2];                 /* as in fst_chart */
 } fst_field_options;
 /* The strength |B| at the height of the bead's centre, in the units as given. */
 FST_API fst_field_options fst_default_field_options(void);
@@ -246,6 +249,17 @@ FST_API fst_status fst_figure_field(const fst_params *params, fst_shown_units un
 /* Whether a run starts from the end state of its neighbour along the first axis, and in which direction of that
  * axis. */
 typedef enum { FST_CARRIES(FST_ROW_ENUM) FST_CARRY_COUNT } fst_carry;
+
+/* What became of a bead: of how many points, how often the equations of motion were evaluated for all of them, and how
+ * many drive periods their runs took together. */
+typedef struct fst_sweep_outcome {
+    int64_t points, rhs_calls;
+    double periods;
+} fst_sweep_outcome;
+enum { FST_SWEEP_OUTCOMES = FST_REGIME_COUNT + 1 };
+
+/* The name of a place in fst_sweep_counts.outcomes. */
+FST_API const char *fst_sweep_outcome_name(fst_row_kind kind, int place);
 
 /* How far a sweep is, or how it ended. */
 typedef struct fst_sweep_counts {
@@ -266,6 +280,10 @@ typedef struct fst_sweep_counts {
     int repaired;
     int64_t lost;
     int64_t begun_anew; /* runs begun anew, because what was saved of them after a while is damaged */
+    /* Of the rows that this call added, by fst_regime, of several beads by fst_beads_outcome; the last place has runs that
+     * failed, of which only the number is known. */
+    fst_row_kind kind;
+    fst_sweep_outcome outcomes[FST_SWEEP_OUTCOMES];
 } fst_sweep_counts;
 
 typedef struct fst_sweep_options {
@@ -358,8 +376,9 @@ typedef struct fst_sweep_table {
     double *values;
     unsigned char *computed; /* by point: 1 where there is a row */
     int64_t rows;
-    int refine;     /* as in the options of the last fst_sweep() */
-    int64_t wanted; /* the points that are to have a row, without refining: all, or those of a shard */
+    int refine;      /* as in the options of the last fst_sweep() */
+    int64_t wanted;  /* the points that are to have a row, without refining: all, or those of a shard */
+    fst_carry carry; /* as in the options of fst_sweep() */
 } fst_sweep_table;
 FST_API fst_status fst_sweep_read(const char *path, const char *const *keys, int count, fst_sweep_table *table,
                                   fst_error *error);
@@ -388,6 +407,8 @@ typedef struct fst_sweep_figure {
         units; /* as given: laboratory units where a varied parameter has one (Hz, mm), otherwise scaled */
     const char *at
         [FST_AXIS_LIMIT]; /* "KEY=VALUE": only the points where this axis has this value; NULL ends the list */
+    const char *title;    /* NULL: made from what is shown */
+    double size[2];       /* as in fst_chart */
 } fst_sweep_figure;
 
 /* Draw a sweep: over one axis curves of the keys; over two a map of one key, or of regimes where the key is `regime`, or a

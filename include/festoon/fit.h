@@ -140,6 +140,9 @@ typedef struct fst_fit {
     double
         slip_misfit; /* how far the model's slip is from it: the root of the mean square of a component's difference
                            over its error; NAN: none was measured.  It is not fitted, but judges the friction law */
+    /* Of a track, Hz: how the magnet turned, which is sought too, and from where (NAN: from what the track told).  0: of a
+     * table. */
+    double drive, drive_error, drive_given;
     double aicc;
     fst_fit_outlier *outliers;
     size_t outlier_count;

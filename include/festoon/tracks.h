@@ -221,16 +221,20 @@ FST_API void fst_placed_track_free(fst_placed_track *placed);
 /* What was fitted to the distance from the centre, at a time of a placed track. */
 FST_API double fst_fitted_radius(const fst_measurement *measured, double t);
 
-/* Lay measured points with their errors over the curves of a sweep over the drive (a database) or of a branch
- * over the drive (JSON), in mm and Hz, a panel for each quantity.  chi^2 is the sum over all measured numbers
- * for which there is a curve at their frequency (of a branch: the nearest stable one), and `counted` says how
- * many these are. */
+/* Lay up to FST_CHARTS_OVER tables of measured points with their errors over the curves of as many sweeps over the
+ * drive (databases) or branches over the drive (JSON), a panel for each quantity.  Of the options (NULL: all zeros)
+ * count the units (as given: mm and Hz), title and size.  chi^2 is the sum over all measured numbers for which there
+ * is a curve at their frequency (of a branch: the nearest stable one), and `counted` says how many these are; `fits`
+ * (NULL: not wanted) has room for result_count * point_count, those of result m and table p at m * point_count + p.
+ * FST_BAD_INPUT: scaled units, and two results differ in l or gamma. */
+struct fst_sweep_figure;
 typedef struct fst_points_fit {
     double chi2;
     int counted, all;
 } fst_points_fit;
-FST_API fst_status fst_figure_points(const char *results, const char *points, const char *out,
-                                     fst_points_fit *fit, fst_error *error);
+FST_API fst_status fst_figure_points(const char *const *results, int result_count, const char *const *points,
+                                     int point_count, const struct fst_sweep_figure *options, const char *out,
+                                     fst_points_fit *fits, fst_error *error);
 
 /* A measurement as JSON; free() it.  NULL: no memory. */
 FST_API char *fst_measurement_json(const fst_measurement *measured);

@@ -267,5 +267,7 @@ def points(results: Path, measured: Path, path: Path) -> Tuple[float, int, int]:
         Where it is damaged, or something else.
     """
     fit = ffi.new("fst_points_fit *")
-    call(lib.fst_figure_points, path_bytes(results), path_bytes(measured), path_bytes(path), fit)
+    names = [ffi.new("char[]", path_bytes(file)) for file in (results, measured)]
+    over, laid = (ffi.new("const char *[]", [name]) for name in names)
+    call(lib.fst_figure_points, over, 1, laid, 1, ffi.NULL, path_bytes(path), fit)
     return float(fit.chi2), int(fit.counted), int(fit.all)

@@ -20,7 +20,7 @@ typedef struct command {
     int much_output;     /* its standard output may be larger than memory */
     int has_helpers;     /* it starts other programs, which a signal from the terminal also reaches */
     const char *program; /* the program that does it, "festoon-paper"; NULL: this one, by the next line */
-    /* Do it.  What is written to `out` reaches standard output only if this returns FST_OK. */
+    /* Do it.  What is written to `out` reaches standard output only if this returns FST_OK (or after output_keep()). */
     fst_status (*perform)(const arguments *given, FILE *out, fst_error *error);
 } command;
 
@@ -66,6 +66,15 @@ const command *find_command(const char *name);
             "as given, lab (Hz, mm, s, mT, mN, mW), scaled (l, 1/gamma, B0) or si"                             \
     }
 
+/* Of the commands that draw figures. */
+#define LOOK_OPTIONS                                                                                           \
+    {"title", '\0', "TEXT", "what stands above the figure; an empty text: nothing"},                           \
+    {                                                                                                          \
+        "size", '\0', "WxH",                                                                                   \
+            "width and height, 86mmx60mm, or the width alone (127mm); letters grow with it, and a PNG "        \
+            "has 192 pixels an inch"                                                                           \
+    }
+
 /* Fill in `error` and return `code`. */
 fst_status fail(fst_error *error, fst_status code, const char *where, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
@@ -103,6 +112,9 @@ fst_status read_units(const arguments *given, fst_shown_units *units, fst_error 
 enum { KEY_LIMIT = 16, KEYS_SIZE = 512 };
 fst_status read_quantities(const arguments *given, char words[KEYS_SIZE], const char **names, int most,
                            fst_error *error);
+
+/* Read --title and --size, in m; they stay as they were where they are missing. */
+fst_status read_look(const arguments *given, const char **title, double size[2], fst_error *error);
 
 /* Read a time with its unit: "2ms", "0.002 s", "500us", or "1/500s" as cameras write it. */
 fst_status read_time(const char *option_name, const char *text, double *seconds, fst_error *error);

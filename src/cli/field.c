@@ -20,6 +20,7 @@ static const option options[] = {
     {"radius", '\0', "R", "how far from the axis the map of --csv goes along X and Y (60mm)"},
     {"spacing", '\0', "D", "from one sample of --csv to the next (1mm)"},
     UNITS_OPTION,
+    LOOK_OPTIONS,
     {NULL, '\0', NULL, NULL},
 };
 
@@ -282,6 +283,8 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (status == FST_OK && at)
         status = print_point(given, &params, map.height, units, out, error);
     map.units = units;
+    if (status == FST_OK && figure)
+        status = read_look(given, &map.title, map.size, error);
     if (status == FST_OK && figure)
         status = fst_figure_field_map(&params, &map, figure, error);
     if (status == FST_OK && figure)

@@ -177,11 +177,25 @@ static void print_rivals(FILE *out, const fst_fit *fit)
     }
 }
 
+/* How the magnet of a film turned. */
+static void print_drive(FILE *out, const fst_fit *fit)
+{
+    if (fit->drive == 0.0)
+        return;
+    (void)fprintf(out, "  %-22s ", "drive");
+    print_value(out, fit->drive, fit->drive_error, FST_UNIT_FREQUENCY);
+    if (isfinite(fit->drive_given))
+        (void)fprintf(out, ", sought from the %.6g Hz given\n", fit->drive_given);
+    else
+        (void)fprintf(out, ", as the track told it\n");
+}
+
 static void print_fit(FILE *out, const fst_fit *fit)
 {
     (void)fprintf(out, "%d numbers, chi^2 = %.5g with %d degrees of freedom\n\n", fit->points, fit->chi2,
                   fit->dof);
     print_parameters(out, fit);
+    print_drive(out, fit);
     print_correlation(out, fit);
     print_outliers(out, fit);
     print_rivals(out, fit);

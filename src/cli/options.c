@@ -123,6 +123,7 @@ const option *find_option(const command *of, const char *word)
 static fst_status keep_option(arguments *given, const option *row, const char *value, fst_error *error)
 {
     const int may_repeat = strcmp(row->name, "over") == 0 || strcmp(row->name, "given") == 0 ||
+                           strcmp(row->name, "points") == 0 ||
                            (row->value && strcmp(row->value, "KEY=VALUE") == 0);
     if (!may_repeat && option_value(given, row->name))
         return fail(error, FST_BAD_INPUT, "", "--%s is given twice", row->name);

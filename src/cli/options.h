@@ -36,7 +36,7 @@ typedef struct arguments {
     fst_field_map **map;     /* the map of the scene, which is freed after the command */
 } arguments;
 
-/* Read words[0..count) by the table of a command.  A value may begin with a minus.  Only --over, --given and options of a
+/* Read words[0..count) by the table of a command.  A value may begin with a minus.  Only --over, --given, --points and options of a
  * KEY=VALUE may be repeated.  A name that an option had before is taken, with a sentence on standard error.  FST_BAD_INPUT:
  * unknown option (the sentence names the nearest), missing or superfluous value, too many operands. */
 fst_status read_arguments(const struct command *of, int count, char **words, arguments *given,

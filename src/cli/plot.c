@@ -21,6 +21,7 @@ static const option options[] = {
     {"only", '\0', "KEY=VALUE",
      "of a sweep: only the points where this axis has this value; once for each axis"},
     UNITS_OPTION,
+    LOOK_OPTIONS,
     {"no-arrows", '\0', NULL, "draw no arrows of the horizontal moment along the path"},
     {"frame", '\0', "lab|magnet", "from where the path is seen: the laboratory, or the turning magnet"},
     {"inset", EXPERT, NULL, "draw the moment's path in the local frame in the middle of the bead's path"},
@@ -28,7 +29,8 @@ static const option options[] = {
     {"to", '\0', "P", "last drive period shown"},
     {"zoom", '\0', "X0,X1,Y0,Y1", "the part of the plate shown, in mm"},
     {"points", '\0', "DATA.csv",
-     "lay measured points over a sweep or a branch over the drive, with their errors, and tell chi^2"},
+     "of sweeps and branches over the drive: lay measured points with errors over them, and tell chi^2; again "
+     "for more tables"},
     {"runs", EXPERT, "FILE", "lay runs over a branch as dots, from documents of festoon run --json"},
     {NULL, '\0', NULL, NULL},
 };
@@ -40,7 +42,7 @@ static fst_status refuse_others(const arguments *given, const char *words, const
         const char *name = given->options[i].row->name;
         char wanted[32], all[160];
         (void)snprintf(wanted, sizeof wanted, "|%s|", name);
-        (void)snprintf(all, sizeof all, "|output|%s|", words);
+        (void)snprintf(all, sizeof all, "|output|title|size|%s|", words);
         if (strstr(all, wanted))
             continue;
         size_t used = 0;
@@ -63,6 +65,8 @@ static fst_status read_figure(const arguments *given, fst_figure_options *figure
     fst_status status =
         read_choice("--kind", option_value(given, "kind"), "kind", FST_WORDS(FST_FIGURES), &place, error);
     figure->kind = (fst_figure_kind)place;
+    if (status == FST_OK)
+        status = read_look(given, &figure->title, figure->size, error);
     if (status == FST_OK && figure->kind != FST_FIGURE_PATH)
         status = refuse_others(given, "kind|quantity|units|from|to", "this kind of figure", error);
     if (status == FST_OK)
@@ -101,6 +105,7 @@ static fst_status plot_branch(const arguments *given, const char *path, const ch
     const char *observable = NULL, *runs = option_value(given, "runs");
     char words[KEYS_SIZE];
     double *dots = NULL;
+    fst_chart *chart = NULL;
     size_t dot_count = 0;
     fst_shown_units units;
     fst_status status = refuse_others(given, "quantity|runs|units|points", "a branch", error);
@@ -117,9 +122,14 @@ static fst_status plot_branch(const arguments *given, const char *path, const ch
     if (runs)
         status = fst_run_dots_read(runs, branch.key, observable, &dots, &dot_count, error);
     if (status == FST_OK)
-        status = fst_figure_branch(&branch, observable, units, dots, dot_count, to, error);
+        status = fst_chart_of_branch(&branch, observable, units, dots, dot_count, &chart, error);
+    if (status == FST_OK)
+        status = read_look(given, &chart->title, chart->size, error);
+    if (status == FST_OK)
+        status = fst_figure_chart(to, chart, error);
     if (status == FST_OK)
         tell_written(to, "");
+    fst_chart_free(chart);
     free(dots);
     fst_branch_free(&branch);
     return status;
@@ -134,6 +144,8 @@ static fst_status read_sweep_figure(const arguments *given, fst_sweep_figure *fi
     fst_status status =
         read_choice("--kind", option_value(given, "kind"), "kind", FST_WORDS(FST_FIGURES), &place, error);
     figure->kind = (fst_figure_kind)place;
+    if (status == FST_OK)
+        status = read_look(given, &figure->title, figure->size, error);
     if (status == FST_OK)
         status = read_units(given, &figure->units, error);
     if (status == FST_OK)
@@ -163,26 +175,52 @@ static fst_status plot_sweep(const arguments *given, const char *path, const cha
     return status;
 }
 
-static fst_status plot_points(const arguments *given, const char *path, const char *to, fst_error *error)
+/* Say chi^2 of each table before each file; of one alone behind the figure's name. */
+static void tell_fits(const arguments *given, const char *const *tables, int table_count,
+                      const fst_points_fit *fits, const char *to, FILE *out)
 {
-    fst_points_fit fit;
-    char remark[96];
-    int is_sweep = 0;
-    fst_status status = refuse_others(given, "points", "a figure with measured points", error);
-    if (status == FST_OK && !ends_in(path, ".json") && !ends_in(path, ".db")) {
+    const int count = given->operand_count * table_count;
+    char remark[96] = "", names[2][SHOWN_SIZE];
+    for (int i = 0; i < count; ++i) {
+        const fst_points_fit *fit = &fits[i];
+        (void)snprintf(remark, sizeof remark, ": chi^2 = %.6g of %d measured numbers (%d in the table)",
+                       fit->chi2, fit->counted, fit->all);
+        if (count > 1)
+            (void)fprintf(out, "%s over %s%s\n", shown(tables[i % table_count], names[0]),
+                          shown(given->operands[i / table_count], names[1]), remark);
+    }
+    tell_written(to, count > 1 ? "" : remark);
+}
+
+static fst_status plot_points(const arguments *given, const char *to, FILE *out, fst_error *error)
+{
+    fst_points_fit fits[FST_CHARTS_OVER * FST_CHARTS_OVER];
+    fst_sweep_figure figure = {.kind = FST_FIGURE_PATH};
+    const char *tables[FST_CHARTS_OVER + 1];
+    int is_sweep = 0, table_count = 0;
+    fst_status status = refuse_others(given, "points|units", "a figure with measured points", error);
+    for (int i = 0; i < given->option_count && table_count <= FST_CHARTS_OVER; ++i)
+        if (strcmp(given->options[i].row->name, "points") == 0)
+            tables[table_count++] = given->options[i].value;
+    for (int i = 0; i < given->operand_count && status == FST_OK; ++i) {
+        const char *path = given->operands[i];
+        if (ends_in(path, ".json") || ends_in(path, ".db"))
+            continue;
         status = fst_is_sweep(path, &is_sweep, error);
         if (status == FST_OK && !is_sweep)
             status = fail(error, FST_BAD_INPUT, path,
                           "--points belongs to sweeps and branches; this file is neither");
     }
     if (status == FST_OK)
-        status = fst_figure_points(path, option_value(given, "points"), to, &fit, error);
-    if (status != FST_OK)
-        return status;
-    (void)snprintf(remark, sizeof remark, ": chi^2 = %.6g of %d measured numbers (%d in the table)", fit.chi2,
-                   fit.counted, fit.all);
-    tell_written(to, remark);
-    return FST_OK;
+        status = read_units(given, &figure.units, error);
+    if (status == FST_OK)
+        status = read_look(given, &figure.title, figure.size, error);
+    if (status == FST_OK)
+        status = fst_figure_points(given->operands, given->operand_count, tables, table_count, &figure, to,
+                                   fits, error);
+    if (status == FST_OK)
+        tell_fits(given, tables, table_count, fits, to, out);
+    return status;
 }
 
 /* Draw a trajectory of several beads. */
@@ -232,7 +270,6 @@ static fst_status plot_several(const arguments *given, const char *to, fst_error
 
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
-    (void)out;
     fst_figure_options figure;
     fst_table table;
     const char *path = operand(given), *to = option_value(given, "output");
@@ -240,10 +277,10 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         return fail(error, FST_BAD_INPUT, "", "a trajectory is missing: make one with festoon run -o FILE.h5");
     if (!to)
         return fail(error, FST_BAD_INPUT, "", "say where the figure goes: -o FIG.svg");
+    if (option_value(given, "points"))
+        return plot_points(given, to, out, error);
     if (given->operand_count > 1)
         return plot_several(given, to, error);
-    if (option_value(given, "points"))
-        return plot_points(given, path, to, error);
     if (ends_in(path, ".json")) /* a branch */
         return plot_branch(given, path, to, error);
     char words[KEYS_SIZE];

@@ -101,7 +101,7 @@ static void print_error(const fst_error *error)
     (void)fprintf(stderr, "festoon: %s%s%s\n", where, where[0] ? ": " : "", sentence);
 }
 
-/* Standard output is written only if all went well.  Until then it waits in memory or, where there is much of
+/* Standard output is written only if all went well, or as much of it as a command keeps.  Until then it waits in memory or, where there is much of
  * it, in a file. */
 typedef struct waiting_output {
     FILE *stream;
@@ -125,7 +125,7 @@ static fst_status end_output(waiting_output *out, fst_status status, fst_error *
     if (!text && !spooled && status == FST_OK)
         status =
             fail(error, FST_IO, "standard output", "there is no room to collect it, in memory or in $TMPDIR");
-    if (status == FST_OK)
+    if (status == FST_OK || (output_is_kept() && text))
         reason = text ? write_standard_output(text, out->printed.size) : spool_to_standard_output(spool);
     if (reason)
         status = fail(error, FST_IO, "standard output", "writing failed: %s", strerror(reason));

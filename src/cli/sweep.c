@@ -184,18 +184,56 @@ static fst_status show(void *user, double fraction, const char *part, fst_error 
                               rate > 0 ? (double)(p->expected - p->computed) / rate : INFINITY, what, error);
 }
 
+/* The place of the next outcome that occurs; FST_SWEEP_OUTCOMES: there is none. */
+static int next_outcome(const fst_sweep_counts *p, int place)
+{
+    while (place < FST_SWEEP_OUTCOMES && p->outcomes[place].points == 0)
+        ++place;
+    return place;
+}
+
+/* What became of the points, and what share of the work they took. */
+static void print_outcomes(FILE *out, const fst_sweep_counts *p, int json)
+{
+    double all = 0.0;
+    for (int i = 0; i < FST_SWEEP_OUTCOMES; ++i)
+        all += (double)p->outcomes[i].rhs_calls;
+    if (!json && all > 0.0)
+        (void)fprintf(out, "%-16s %10s %8s %14s\n", "outcome", "points", "work", "mean periods");
+    for (int i = next_outcome(p, 0); i < FST_SWEEP_OUTCOMES; i = next_outcome(p, i + 1)) {
+        const fst_sweep_outcome *o = &p->outcomes[i];
+        const char *name = fst_sweep_outcome_name(p->kind, i),
+                   *comma = next_outcome(p, i + 1) < FST_SWEEP_OUTCOMES ? "," : "";
+        const double share = (double)o->rhs_calls / all, periods = o->periods / (double)o->points;
+        if (o->rhs_calls == 0)
+            (void)fprintf(out, json ? "    {\"outcome\": \"%s\", \"points\": %lld}%s\n" : "%-16s %10lld%s\n",
+                          name, (long long)o->points, json ? comma : "");
+        else if (json)
+            (void)fprintf(out,
+                          "    {\"outcome\": \"%s\", \"points\": %lld, \"rhs_calls\": %lld, \"share\": %.6g, "
+                          "\"mean_periods\": %.6g}%s\n",
+                          name, (long long)o->points, (long long)o->rhs_calls, share, periods, comma);
+        else
+            (void)fprintf(out, "%-16s %10lld %6.2f %% %14.4g\n", name, (long long)o->points, 100.0 * share,
+                          periods);
+    }
+}
+
 static void print_sweep(FILE *out, const char *path, const fst_sweep_counts *p, const fst_sweep_options *sweep,
                         int can_draw, int json)
 {
     if (json) {
-        (void)fprintf(
-            out,
-            "{\n  \"points\": %lld,\n  \"computed\": %lld,\n  \"rows\": %lld,\n  \"added\": %lld,\n  "
-            "\"failed\": %lld,\n"
-            "  \"lost\": %lld,\n"
-            "  \"seconds\": %.17g,\n  \"processor_seconds\": %.17g,\n  \"journal_seconds\": %.17g\n}\n",
-            (long long)p->points, (long long)p->computed, (long long)p->there, (long long)p->added,
-            (long long)p->failed, (long long)p->lost, p->seconds, p->processor_seconds, p->journal_seconds);
+        (void)fprintf(out,
+                      "{\n  \"points\": %lld,\n  \"computed\": %lld,\n  \"rows\": %lld,\n  \"added\": %lld,\n  "
+                      "\"failed\": %lld,\n"
+                      "  \"lost\": %lld,\n"
+                      "  \"seconds\": %.17g,\n  \"processor_seconds\": %.17g,\n  \"journal_seconds\": %.17g,\n "
+                      " \"outcomes\": [\n",
+                      (long long)p->points, (long long)p->computed, (long long)p->there, (long long)p->added,
+                      (long long)p->failed, (long long)p->lost, p->seconds, p->processor_seconds,
+                      p->journal_seconds);
+        print_outcomes(out, p, 1);
+        (void)fputs("  ]\n}\n", out);
         return;
     }
     char name[SHOWN_SIZE];
@@ -217,6 +255,7 @@ static void print_sweep(FILE *out, const char *path, const fst_sweep_counts *p, 
     else if (can_draw)
         (void)fprintf(out, ", festoon plot %s -o FIG.svg draws them", path);
     (void)fputc('\n', out);
+    print_outcomes(out, p, 0);
 }
 
 static void tell_of_repair(const char *path, const fst_sweep_counts *counts)

@@ -268,3 +268,17 @@ int spool_to_standard_output(FILE *spool)
         reason = EIO;
     return end_standard_output(reason);
 }
+
+/* ------------------------------------------------------------------ standard output of a command that fails */
+
+static int is_kept;
+
+void output_keep(void)
+{
+    is_kept = 1;
+}
+
+int output_is_kept(void)
+{
+    return is_kept;
+}

@@ -53,4 +53,8 @@ int write_standard_output(const char *text, size_t size);
 FILE *spool_open(void);
 int spool_to_standard_output(FILE *spool);
 
+/* Standard output is written even if the command fails from here on: a table of several files says which failed. */
+void output_keep(void);
+int output_is_kept(void);
+
 #endif

@@ -243,6 +243,7 @@ static fst_status track_several(const arguments *given, fst_film_track_options *
     fst_status status = check_several(given, folder, error), failed = FST_OK;
     if (status != FST_OK)
         return status;
+    output_keep();
     (void)fprintf(out, "%8s %10s %6s %10s %12s  %s\n", "frames", "fps", "lost", "bead [px]", "mm a pixel",
                   "track");
     for (int i = 0; i < given->operand_count; ++i) {
@@ -256,6 +257,8 @@ static fst_status track_several(const arguments *given, fst_film_track_options *
         if (status != FST_OK) {
             failed = failed ? failed : status;
             (void)fprintf(stderr, "festoon: %s: %s\n", shown(error->where, text), error->sentence);
+            (void)fprintf(out, "%8s %10s %6s %10s %12s  failed: %s\n", "-", "-", "-", "-", "-",
+                          shown(given->operands[i], text));
             continue;
         }
         char scale[32] = "-";

@@ -26,6 +26,22 @@ fst_status read_units(const arguments *given, fst_shown_units *units, fst_error 
     return status;
 }
 
+fst_status read_look(const arguments *given, const char **title, double size[2], fst_error *error)
+{
+    const char *text = option_value(given, "size"), *cross = text ? strchr(text, 'x') : NULL;
+    char width[40];
+    if (option_value(given, "title"))
+        *title = option_value(given, "title");
+    if (!text)
+        return FST_OK;
+    (void)snprintf(width, sizeof width, "%.*s", cross ? (int)(cross - text) : 39, text);
+    if (fst_parse_value(width, FST_UNIT_LENGTH, &size[0], NULL) != FST_OK || !(size[0] > 0.0) ||
+        (cross && (fst_parse_value(cross + 1, FST_UNIT_LENGTH, &size[1], NULL) != FST_OK || !(size[1] > 0.0))))
+        return fail(error, FST_BAD_INPUT, "--size", "\"%.40s\" is no size: write it as 86mm or 86mmx60mm",
+                    text);
+    return FST_OK;
+}
+
 fst_status read_quantities(const arguments *given, char words[KEYS_SIZE], const char **names, int most,
                            fst_error *error)
 {

@@ -2,12 +2,17 @@
  * laws say so. */
 #include "draw/caption.h"
 
+#include <festoon/festoon_tools.h>
+
 #include <stdio.h>
 #include <string.h>
 
 #include "base/units.h"
 
-enum { LONGEST = 150 }; /* characters, which is two lines of a figure */
+enum {
+    LONGEST = 150, /* characters, which is two lines of a figure */
+    VALUE = 264    /* bytes of a value: a file's name is one */
+};
 
 static int is_among(const char *key, const char *const *keys, int count)
 {
@@ -17,10 +22,10 @@ static int is_among(const char *key, const char *const *keys, int count)
     return i < count;
 }
 
-/* Not told: the length of runs, the frame, and texts, which are names of files and tables. */
+/* Not told: the length of runs, the frame, and the checksum of a file that is named. */
 static int may_be_told(const fst_param_info *row)
 {
-    return row->kind != FST_KIND_TEXT && strncmp(row->key, "run.", 4) != 0 &&
+    return strcmp(row->key, "magnet.checksum") != 0 && strncmp(row->key, "run.", 4) != 0 &&
            strcmp(row->key, "world.frame") != 0;
 }
 
@@ -29,11 +34,13 @@ static int may_be_told(const fst_param_info *row)
 static int tell(const fst_params *params, int index, char *text, size_t size, size_t begun)
 {
     const fst_param_info *row = fst_param_at(index);
-    char value[64];
+    char value[VALUE];
     double number;
     if (!fst_params_get(params, index, value, sizeof value) && fst_param_other_form(row->key))
         return 1; /* the quantity is given in its other form, which is told */
-    if (row->kind != FST_KIND_CHOICE && fst_parse_value(value, row->unit, &number, NULL) == FST_OK)
+    if (row->kind == FST_KIND_TEXT)
+        memmove(value, fst_file_name(value), strlen(fst_file_name(value)) + 1);
+    else if (row->kind != FST_KIND_CHOICE && fst_parse_value(value, row->unit, &number, NULL) == FST_OK)
         (void)fst_value_write(value, sizeof value, number, row->unit);
     const size_t used = strlen(text), length = strlen(row->key) + strlen(value) + 3;
     if (used - begun + length > LONGEST || used + length + 16 > size)
@@ -45,7 +52,7 @@ static int tell(const fst_params *params, int index, char *text, size_t size, si
 
 static int agree(const fst_params *one, const fst_params *other, int index)
 {
-    char values[2][64];
+    char values[2][VALUE];
     (void)fst_params_get(one, index, values[0], sizeof values[0]);
     (void)fst_params_get(other, index, values[1], sizeof values[1]);
     return strcmp(values[0], values[1]) == 0;
@@ -63,7 +70,7 @@ void fst_caption(const fst_params *params, const char *const *shown, int count, 
     const size_t begun = strlen(text);
     int left = 0;
     for (int i = 0; i < fst_param_count(); ++i) {
-        char value[64];
+        char value[VALUE];
         const fst_param_info *row = fst_param_at(i);
         if (may_be_told(row) && !is_among(row->key, shown, count) &&
             fst_params_get(params, i, value, sizeof value) && !agree(params, &usual, i))
@@ -104,4 +111,35 @@ void fst_caption_differences(const fst_params *const *scenes, int count, const c
     for (int i = 0; i < count; ++i)
         count_left(names[i], FST_CAPTION_SIZE, left[0]);
     count_left(same, size, left[1]);
+}
+
+const char *fst_file_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+void fst_caption_of_files(const fst_params *const *scenes, const char *const *paths, int count,
+                          const char *const *shown, int shown_count, char (*names)[FST_CAPTION_SIZE],
+                          char *same, size_t size)
+{
+    int known = 1, alike[FST_CHARTS_OVER] = {0};
+    for (int i = 0; i < count; ++i) {
+        known = known && scenes[i];
+        names[i][0] = '\0';
+    }
+    same[0] = '\0';
+    if (known)
+        fst_caption_differences(scenes, count, shown, shown_count, names, same, size);
+    if (known && count > 1 && !same[0])
+        (void)snprintf(same, size, "all else as by default");
+    for (int i = 0; i < count; ++i)
+        for (int j = 0; j < count; ++j)
+            alike[i] |= j != i && strcmp(names[i], names[j]) == 0;
+    for (int i = 0; i < count; ++i)
+        if (alike[i] || !names[i][0]) {
+            const size_t used = strlen(names[i]);
+            (void)snprintf(names[i] + used, FST_CAPTION_SIZE - used, used ? " (%.100s)" : "%.100s",
+                           fst_file_name(paths[i]));
+        }
 }

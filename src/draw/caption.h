@@ -15,4 +15,13 @@ enum { FST_CAPTION_SIZE = 192 };
 void fst_caption_differences(const fst_params *const *scenes, int count, const char *const *shown,
                              int shown_count, char (*names)[FST_CAPTION_SIZE], char *same, size_t size);
 
+/* A name for each file: what differs between their scenes (NULL: not known), and the file's name where that does not
+ * tell it from another. */
+void fst_caption_of_files(const fst_params *const *scenes, const char *const *paths, int count,
+                          const char *const *shown, int shown_count, char (*names)[FST_CAPTION_SIZE],
+                          char *same, size_t size);
+
+/* The name of a file without its folder. */
+const char *fst_file_name(const char *path);
+
 #endif

@@ -18,6 +18,7 @@ enum {
     GAP = 20,           /* between panels: the lowest number of one must not touch the highest of the next */
     INSET_CLEAR = 14,   /* of the panel's tics */
     INSET_NUMBERS = 40, /* beside an inset */
+    LEAST_HEIGHT = 110,
     USUAL_HEIGHT = 190,
     LONE_HEIGHT = 270
 };
@@ -345,8 +346,8 @@ static void write_inset(fst_figure_file *figure, const fst_chart_inset *inset, i
                   "unset arrow\nunset label\nunset key\nunset x2tics\nunset y2tics\n"
                   "set object 99 rectangle from screen %.5f,%.5f to screen %.5f,%.5f behind noclip fc rgb "
                   "'white' fs solid noborder\nset tics font ',11' scale 0.5\nset format x '%%g'\n",
-                  ground[0] / FST_FIGURE_WIDTH, 1.0 - ground[3] / height, ground[1] / FST_FIGURE_WIDTH,
-                  1.0 - ground[2] / height);
+                  fst_figure_across(figure, ground[0]), 1.0 - ground[3] / height,
+                  fst_figure_across(figure, ground[1]), 1.0 - ground[2] / height);
     write_sparse_tics(script, inset, 1, frame[1] - frame[0]);
     write_sparse_tics(script, inset, 0, frame[3] - frame[2]);
     fst_figure_place(figure, height, frame);
@@ -445,11 +446,29 @@ static layout lay_out(const fst_chart *chart)
     return l;
 }
 
+/* The same on the canvas of the wanted size, in which the panels share what is more; a square has its side. */
+static layout lay_out_on(const fst_chart *chart, fst_canvas *canvas)
+{
+    layout l = lay_out(chart);
+    const int panels = chart->panel_count ? chart->panel_count : 1;
+    *canvas = fst_canvas_for(chart->size, l.height, chart->square ? 0 : panels * (l.panel - LEAST_HEIGHT));
+    if (chart->square) {
+        l.top += canvas->more / 2;
+    } else if (canvas->more) {
+        fst_chart sized = *chart;
+        sized.height = l.panel + canvas->more / panels;
+        l = lay_out(&sized); /* a label may need more lines */
+    }
+    l.height = canvas->height;
+    return l;
+}
+
 fst_status fst_figure_chart(const char *out, const fst_chart *chart, fst_error *error)
 {
-    const layout l = lay_out(chart);
+    fst_canvas canvas;
+    const layout l = lay_out_on(chart, &canvas);
     fst_figure_file figure;
-    fst_status status = fst_figure_begin(&figure, out, FST_FIGURE_WIDTH, l.height, error);
+    fst_status status = fst_figure_begin(&figure, out, &canvas, error);
     if (status != FST_OK)
         return status;
     write_data(&figure, chart);
@@ -462,6 +481,14 @@ fst_status fst_figure_chart(const char *out, const fst_chart *chart, fst_error *
         write_panel(&figure, chart, &l, p);
     fst_legend_write(&figure, &l.legend, l.height);
     return fst_figure_finish(&figure, error);
+}
+
+fst_status fst_figure_chart_as(const char *out, fst_chart *chart, const char *title, const double size[2],
+                               fst_error *error)
+{
+    chart->title = title ? title : chart->title;
+    memcpy(chart->size, size, sizeof chart->size);
+    return fst_figure_chart(out, chart, error);
 }
 
 /* ------------------------------------------------------------------ memory */

@@ -5,10 +5,15 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "draw/legend.h"
 
-static const fst_colour COLOURS[FST_CHARTS_OVER] = {FST_COLOUR_BLUE,   FST_COLOUR_VERMILION, FST_COLOUR_GREEN,
-                                                    FST_COLOUR_PURPLE, FST_COLOUR_SKY,       FST_COLOUR_ORANGE,
-                                                    FST_COLOUR_BLACK,  FST_COLOUR_OLIVE};
+fst_colour fst_chart_colour(int place)
+{
+    static const fst_colour colours[FST_CHARTS_OVER] = {
+        FST_COLOUR_BLUE, FST_COLOUR_VERMILION, FST_COLOUR_GREEN, FST_COLOUR_PURPLE,
+        FST_COLOUR_SKY,  FST_COLOUR_ORANGE,    FST_COLOUR_BLACK, FST_COLOUR_OLIVE};
+    return colours[place % FST_CHARTS_OVER];
+}
 
 static int same_text(const char *one, const char *other)
 {
@@ -98,7 +103,9 @@ static int take_curves(fst_chart *all, fst_chart_panel *panels, int count, fst_c
 static int take_chart(fst_chart *all, fst_chart_panel *panels, int *count, const fst_chart *one,
                       fst_colour colour, const char *name)
 {
-    const char *own = fst_chart_text(all, name);
+    char words[128];
+    fst_plain_words(name, words, sizeof words);
+    const char *own = fst_chart_text(all, words);
     int good = own != NULL;
     for (int p = 0; p < one->panel_count && good; ++p) {
         fst_chart_panel *panel = panel_for(panels, count, &one->panels[p]);
@@ -133,7 +140,7 @@ fst_status fst_charts_over(fst_chart *const *charts, const char *const *names, i
             begin(made, charts[0], about);
         status = lay_abscissa(made, charts[0], charts[i], error);
         if (status == FST_OK)
-            good = take_chart(made, panels, &panel_count, charts[i], COLOURS[i], names[i]);
+            good = take_chart(made, panels, &panel_count, charts[i], fst_chart_colour(i), names[i]);
     }
     if (good && status == FST_OK) {
         made->panels = panels;

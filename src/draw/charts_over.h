@@ -4,6 +4,9 @@
 
 #include "draw/chart.h"
 
+/* The colour of a chart among others, from 0. */
+fst_colour fst_chart_colour(int place);
+
 /* One chart with the panels of all, in which the curves of each have a colour of their own and its name in the key;
  * fst_chart_free() frees it.  What the others own passes to it, so that they may only be freed.  `about` is the line below the title ("": that
  * of the first).  FST_BAD_INPUT: their abscissas differ. */

@@ -1,5 +1,6 @@
 /* field_map.c - what a map of the magnet's field shows: |B|, a component, or the force and load of a bead. */
 #include "base/error.h"
+#include "draw/caption.h"
 #include "draw/chart.h"
 #include "draw/poles.h"
 
@@ -297,6 +298,7 @@ static void put_words(fst_field_picture *picture, const survey *s, int other_hei
     (void)snprintf(picture->about, sizeof picture->about, "%s: ℓ = %.4g mm%s",
                    bar ? "half length of the magnet's lines" : "unit of length", 1e3 * s->groups.length_unit,
                    is_of_bead(s) ? "; the bead's moment along the field" : "");
+    fst_caption(s->params, NULL, 0, picture->about, sizeof picture->about);
     (void)snprintf(picture->x_label, sizeof picture->x_label, "X (%s)%s", s->length_unit,
                    bar ? ", along the magnet's lines" : "");
     (void)snprintf(picture->y_label, sizeof picture->y_label, "Y (%s)", s->length_unit);

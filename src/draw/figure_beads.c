@@ -371,10 +371,12 @@ fst_status fst_chart_of_beads(const fst_beads_table *table, const fst_figure_opt
 fst_status fst_figure_beads(const fst_beads_table *table, const char *out, const fst_figure_options *options,
                             fst_error *error)
 {
+    const fst_figure_options usual = fst_default_figure_options();
     fst_chart *chart;
     fst_status status = fst_chart_of_beads(table, options, &chart, error);
     if (status == FST_OK)
-        status = fst_figure_chart(out, chart, error);
+        status = fst_figure_chart_as(out, chart, options ? options->title : NULL,
+                                     (options ? *options : usual).size, error);
     fst_chart_free(chart);
     return status;
 }

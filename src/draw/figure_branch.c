@@ -455,8 +455,6 @@ static void make_title(const fst_branch *b, const shown *s, char *title, size_t 
                        signs[b->followed].words, over, second);
     } else
         (void)snprintf(title, size, "%s over the %.90s", kinds[b->kind], over);
-    if (!b->complete)
-        (void)snprintf(title + strlen(title), size - strlen(title), " (incomplete: interrupted)");
 }
 
 /* Axes, ranges and words of the chart. */
@@ -469,6 +467,9 @@ static fst_status arrange(fst_chart *chart, const fst_branch *b, const shown *s,
     make_title(b, s, title, sizeof title);
     if (b->scene)
         fst_caption(b->scene, (const char *[]){b->key, b->second_key}, 2, about, sizeof about);
+    if (!b->complete)
+        (void)snprintf(about + strlen(about), sizeof about - strlen(about), "%s(incomplete: interrupted)",
+                       about[0] ? " " : "");
     fst_chart_panel *panel = fst_chart_keep(chart, sizeof *panel);
     chart->title = fst_chart_text(chart, title);
     chart->about = about[0] ? fst_chart_text(chart, about) : NULL;

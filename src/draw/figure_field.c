@@ -114,11 +114,12 @@ static void write_script(fst_figure_file *figure, const fst_field_picture *f, co
     (void)fputc('\n', script);
 }
 
-static fst_legend make_legend(const fst_field_picture *f)
+static fst_legend make_legend(const fst_field_picture *f, const char *title)
 {
     fst_legend legend = {.count = 0};
-    (void)snprintf(legend.title, sizeof legend.title, "%s", f->title);
-    (void)snprintf(legend.about, sizeof legend.about, "%s", f->about);
+    (void)snprintf(legend.title, sizeof legend.title, "%s", title ? title : f->title);
+    (void)snprintf(legend.about, sizeof legend.about, "%s%s%s", title ? f->title : "", title ? "; " : "",
+                   f->about);
     fst_legend_add(&legend, FST_SAMPLE_LINE, "lc rgb '#4f759b' lw 0.8", f->level_words);
     if (f->maximum_count > 0)
         fst_legend_add(&legend, FST_SAMPLE_POINT, "pt 2 ps 1.2 lw 3 lc rgb '#000000'", "maxima of |B|");
@@ -135,12 +136,15 @@ fst_status fst_figure_field_map(const fst_params *params, const fst_field_option
     fst_figure_file figure;
     fst_status status = fst_field_picture_of(params, options, &picture, error);
     if (status == FST_OK) {
-        const fst_legend legend = make_legend(&picture);
+        const fst_legend legend = make_legend(&picture, options ? options->title : NULL);
         const double *box = picture.box;
         field_layout l = {.top = fst_legend_head(&legend) + 6};
         l.frame = (int)((FST_FIGURE_WIDTH - LEFT - RIGHT) * (box[3] - box[2]) / (box[1] - box[0]));
-        l.height = l.top + l.frame + AXIS + SCALE + fst_legend_foot(&legend);
-        status = fst_figure_begin(&figure, out, FST_FIGURE_WIDTH, l.height, error);
+        const fst_canvas canvas = fst_canvas_for(options ? options->size : NULL,
+                                                 l.top + l.frame + AXIS + SCALE + fst_legend_foot(&legend), 0);
+        l.top += canvas.more / 2;
+        l.height = canvas.height;
+        status = fst_figure_begin(&figure, out, &canvas, error);
         if (status == FST_OK) {
             write_data(&figure, &picture);
             write_script(&figure, &picture, &l);

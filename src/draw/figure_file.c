@@ -11,6 +11,7 @@
 #include "host/whole_file.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -74,6 +75,49 @@ static char *beside(const fst_figure_file *figure, const char *ending)
     return path;
 }
 
+/* ------------------------------------------------------------------ size */
+
+static const double PIXEL = 25.4 / 96.0; /* mm */
+
+fst_canvas fst_canvas_for(const double *size, int usual, int give)
+{
+    fst_canvas canvas = {.height = usual};
+    if (!size || (size[0] == 0.0 && size[1] == 0.0))
+        return canvas;
+    const double wide = size[0] == 0.0 ? FST_FIGURE_WIDTH * PIXEL : 1e3 * size[0];
+    const double tall = size[1] == 0.0 ? wide * usual / FST_FIGURE_WIDTH : 1e3 * size[1];
+    const double wanted = FST_FIGURE_WIDTH * fmin(fmax(tall / wide, 0.0), 1e3), least = usual - give;
+    canvas.millimetres[0] = wide;
+    canvas.millimetres[1] = tall;
+    canvas.height = (int)lround(fmax(wanted, least));
+    canvas.more = canvas.height - usual;
+    if (wanted < least) /* too low: the whole layout becomes smaller */
+        canvas.pad = (int)lround(0.5 * (fmin(fmax(least * wide / tall, 0.0), 1e6) - FST_FIGURE_WIDTH));
+    return canvas;
+}
+
+static fst_status check_size(const fst_canvas *canvas, fst_error *error)
+{
+    enum { LEAST = 20, MOST = 1000 }; /* mm; a PNG of the greatest takes 230 MB while it is drawn */
+    for (int i = 0; i < 2; ++i)
+        if (canvas->millimetres[0] != 0.0 &&
+            !(canvas->millimetres[i] >= LEAST && canvas->millimetres[i] <= MOST))
+            return fst_fail(error, FST_BAD_INPUT, "fst_figure_options.size",
+                            "a figure is %d to %d mm wide and high, not %.4g mm", LEAST, MOST,
+                            canvas->millimetres[i]);
+    return FST_OK;
+}
+
+/* gnuplot gives an SVG its size in pixels, those of the layout; the head has to state the size that is wanted. */
+static void write_sized(const char *svg, const fst_canvas *canvas, FILE *out)
+{
+    const char *size = strstr(svg, " width=\""), *box = size ? strstr(size, "\n viewBox=") : NULL;
+    if (box)
+        (void)fprintf(out, "%.*s width=\"%.6gmm\" height=\"%.6gmm\"", (int)(size - svg), svg,
+                      canvas->millimetres[0], canvas->millimetres[1]);
+    (void)fputs(box ? box : svg, out);
+}
+
 /* ------------------------------------------------------------------ the script's head */
 
 void fst_figure_quote(fst_figure_file *figure, const char *text)
@@ -92,29 +136,33 @@ static void quote_name(fst_figure_file *figure, const char *ending)
 /* Each terminal has units of its own for letters, lines, points and dashes: the scales make them look alike.  A
  * PNG is drawn at twice the size, for fine screens.  A path in changing colours is made of pieces, between which
  * gaps would show if their ends were not round. */
-static void write_terminal(fst_figure_file *figure, int width, int height)
+static void write_terminal(fst_figure_file *figure)
 {
     FILE *script = figure->script;
+    const fst_canvas *canvas = &figure->canvas;
+    const int width = FST_FIGURE_WIDTH + 2 * canvas->pad, height = canvas->height;
+    const double scale = canvas->millimetres[0] > 0.0 ? canvas->millimetres[0] / (width * PIXEL) : 1.0;
     if (!strcmp(figure->ending, "svg"))
         (void)fprintf(script,
                       "set terminal svg size %d,%d enhanced rounded background 'white' font 'sans-serif,13'\n",
                       width, height);
     else if (!strcmp(figure->ending, "pdf"))
         (void)fprintf(script,
-                      "set terminal pdfcairo size %.4fin,%.4fin enhanced rounded fontscale 0.5625 linewidth "
-                      "1.5 pointscale 0.8 "
+                      "set terminal pdfcairo size %.4fin,%.4fin enhanced rounded fontscale %.4g linewidth "
+                      "%.4g pointscale %.4g "
                       "dashlength 1.3 font 'sans,13'\n",
-                      width / 96.0, height / 96.0);
+                      scale * width / 96.0, scale * height / 96.0, scale * 0.5625, scale * 1.5, scale * 0.8);
     else
         (void)fprintf(
             script,
-            "set terminal pngcairo size %d,%d enhanced rounded fontscale 1.5 linewidth 2 pointscale 3.2 "
+            "set terminal pngcairo size %d,%d enhanced rounded fontscale %.4g linewidth %.4g pointscale %.4g "
             "dashlength 1.6 "
             "background 'white' font 'sans,13'\n",
-            2 * width, 2 * height);
+            (int)lround(2 * scale * width), (int)lround(2 * scale * height), scale * 1.5, scale * 2,
+            scale * 3.2);
 }
 
-static void write_head(fst_figure_file *figure, int width, int height)
+static void write_head(fst_figure_file *figure)
 {
     FILE *script = figure->script;
     (void)fprintf(script,
@@ -126,7 +174,7 @@ static void write_head(fst_figure_file *figure, int width, int height)
     (void)fputs("\nif (!exists('figure')) figure = ", script);
     quote_name(figure, figure->ending);
     (void)fputs("\nset encoding utf8\nset datafile missing 'nan'\n", script);
-    write_terminal(figure, width, height);
+    write_terminal(figure);
     (void)fputs("if (figure ne '') set output figure\n"
                 "set border lc rgb '#333333' lw 1\n"
                 "set tics textcolor rgb '#333333' nomirror font ',12'\n"
@@ -147,11 +195,13 @@ static void release(fst_figure_file *figure)
     *figure = (fst_figure_file){0};
 }
 
-fst_status fst_figure_begin(fst_figure_file *figure, const char *out, int width, int height, fst_error *error)
+fst_status fst_figure_begin(fst_figure_file *figure, const char *out, const fst_canvas *canvas,
+                            fst_error *error)
 {
-    *figure = (fst_figure_file){0};
-    figure->locale = fst_c_locale_enter();
+    *figure = (fst_figure_file){.canvas = *canvas, .locale = fst_c_locale_enter()};
     fst_status status = take_apart(figure, out, error);
+    if (status == FST_OK)
+        status = check_size(canvas, error);
     if (status == FST_OK) {
         figure->script = fst_print_begin(&figure->script_text);
         figure->data = fst_print_begin(&figure->data_text);
@@ -162,7 +212,7 @@ fst_status fst_figure_begin(fst_figure_file *figure, const char *out, int width,
         release(figure);
         return status;
     }
-    write_head(figure, width, height);
+    write_head(figure);
     return FST_OK;
 }
 
@@ -212,6 +262,24 @@ static const char *name_there(const fst_whole_file *file)
     return slash && file->temporary[0] != '/' ? slash + 1 : file->temporary;
 }
 
+static fst_status draw_by_gnuplot(const fst_figure_file *figure, fst_whole_file files[FILES], fst_error *error)
+{
+    const int sized = figure->canvas.millimetres[0] > 0.0 && !strcmp(figure->ending, "svg");
+    fst_printed printed;
+    FILE *out = sized ? fst_print_begin(&printed) : files[FIGURE].stream;
+    if (!out)
+        return fst_fail(error, FST_NO_MEMORY, figure->out, "no memory for a figure");
+    fst_status status =
+        fst_gnuplot_run(figure->directory, name_there(&files[SCRIPT]), name_there(&files[DATA]), out, error);
+    char *svg = sized ? fst_print_end(&printed) : NULL;
+    if (sized && !svg && status == FST_OK)
+        status = fst_fail(error, FST_NO_MEMORY, figure->out, "no memory for a figure");
+    if (svg)
+        write_sized(svg, &figure->canvas, files[FIGURE].stream);
+    free(svg);
+    return status;
+}
+
 static fst_status draw(const fst_figure_file *figure, const char *const texts[FIGURE],
                        fst_whole_file files[FILES], fst_error *error)
 {
@@ -221,8 +289,7 @@ static fst_status draw(const fst_figure_file *figure, const char *const texts[FI
     if (status == FST_OK)
         status = fst_whole_file_sync(&files[SCRIPT], error);
     if (status == FST_OK)
-        status = fst_gnuplot_run(figure->directory, name_there(&files[SCRIPT]), name_there(&files[DATA]),
-                                 files[FIGURE].stream, error);
+        status = draw_by_gnuplot(figure, files, error);
     if (status != FST_OK && error) { /* the script's temporary name would tell the reader nothing */
         (void)snprintf(error->where, sizeof error->where, "%s", figure->out);
         fst_text_tame(error->where);

@@ -335,6 +335,9 @@ fst_status fst_chart_of_groups(const fst_beads_table *table, const fst_figure_op
     if (told)
         (void)strcat(title, fst_beads_outcome_name(table->outcome));
     (void)snprintf(about, sizeof about, "%.200s", part.about);
+    if (told && options->title)
+        (void)snprintf(about + strlen(about), sizeof about - strlen(about), ", outcome %s",
+                       fst_beads_outcome_name(table->outcome));
     tell_end(&s, about + strlen(about), sizeof about - strlen(about));
     chart->title = fst_chart_text(chart, options->title ? options->title : title);
     chart->about = fst_chart_text(chart, about);

@@ -58,9 +58,11 @@ fst_status fst_figure_local_n(const fst_table *table, const char *out, const fst
     if (status != FST_OK)
         return status;
     const fst_legend legend = make_legend(&view);
-    const int top = fst_legend_head(&legend) + TITLE, height = top + SIDE + AXIS + fst_legend_foot(&legend);
+    const int head = fst_legend_head(&legend) + TITLE;
+    const fst_canvas canvas = fst_canvas_for(options->size, head + SIDE + AXIS + fst_legend_foot(&legend), 0);
+    const int top = head + canvas.more / 2, height = canvas.height;
     fst_figure_file figure;
-    status = fst_figure_begin(&figure, out, FST_FIGURE_WIDTH, height, error);
+    status = fst_figure_begin(&figure, out, &canvas, error);
     if (status != FST_OK)
         return status;
     write_data(&figure, &view, n_r, n_alpha, n_z);

@@ -132,45 +132,25 @@ static fst_status take(source *s, wanted *w, fst_error *error)
     return is_sweep ? take_sweep(s, w, error) : take_trajectory(s, w, error);
 }
 
-/* ------------------------------------------------------------------ names */
-
-static const char *file_name(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
-
 /* A name for each file: what differs, and the file's name where that does not tell it from another. */
 static void name_files(const source *sources, int count, char (*names)[FST_CAPTION_SIZE], char *same,
                        size_t size)
 {
     const fst_params *scenes[FST_CHARTS_OVER];
-    const char *shown[FST_CHARTS_OVER * FST_AXIS_LIMIT];
-    int shown_count = 0, known = 1, alike[FST_CHARTS_OVER] = {0};
+    const char *shown[FST_CHARTS_OVER * FST_AXIS_LIMIT], *paths[FST_CHARTS_OVER];
+    int shown_count = 0;
     for (int i = 0; i < count; ++i) {
         scenes[i] = sources[i].scene;
-        known = known && scenes[i];
-        names[i][0] = '\0';
+        paths[i] = sources[i].path;
         for (int k = 0; k < sources[i].shown_count; ++k)
             shown[shown_count++] = sources[i].shown[k];
     }
-    same[0] = '\0';
-    if (known)
-        fst_caption_differences(scenes, count, shown, shown_count, names, same, size);
-    for (int i = 0; i < count; ++i)
-        for (int j = 0; j < count; ++j)
-            alike[i] |= j != i && strcmp(names[i], names[j]) == 0;
-    for (int i = 0; i < count; ++i)
-        if (alike[i] || !names[i][0]) {
-            const size_t used = strlen(names[i]);
-            (void)snprintf(names[i] + used, FST_CAPTION_SIZE - used, used ? " (%.100s)" : "%.100s",
-                           file_name(sources[i].path));
-        }
+    fst_caption_of_files(scenes, paths, count, shown, shown_count, names, same, size);
 }
 
 /* ------------------------------------------------------------------ the figure */
 
-static fst_status draw(const source *sources, int count, const char *out, fst_error *error)
+static fst_status draw(const source *sources, int count, const wanted *w, const char *out, fst_error *error)
 {
     char names[FST_CHARTS_OVER][FST_CAPTION_SIZE], same[FST_CAPTION_SIZE];
     fst_chart *charts[FST_CHARTS_OVER], *all;
@@ -180,10 +160,10 @@ static fst_status draw(const source *sources, int count, const char *out, fst_er
         charts[i] = sources[i].chart;
         words[i] = names[i];
     }
-    fst_status status =
-        fst_charts_over(charts, words, count, same[0] ? same : "all else as by default", &all, error);
+    fst_status status = fst_charts_over(charts, words, count, same, &all, error);
     if (status == FST_OK)
-        status = fst_figure_chart(out, all, error);
+        status = fst_figure_chart_as(out, all, w->sweeps.title ? w->sweeps.title : w->trajectories->title,
+                                     w->sweeps.size[0] > 0.0 ? w->sweeps.size : w->trajectories->size, error);
     fst_chart_free(all);
     return status;
 }
@@ -228,7 +208,7 @@ fst_status fst_figure_over(const char *const *paths, int count, const fst_figure
             status = fst_fail(error, FST_BAD_INPUT, "fst_sweep_figure.at",
                               "no sweep of these varies what \"%.80s\" says", w.sweeps.at[i]);
     if (status == FST_OK)
-        status = draw(sources, count, out, error);
+        status = draw(sources, count, &w, out, error);
     for (int i = 0; i < count; ++i) {
         fst_chart_free(sources[i].chart);
         free(sources[i].scene);

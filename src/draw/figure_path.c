@@ -20,12 +20,12 @@ typedef struct path_layout {
     int top, scale, inset, height;
 } path_layout;
 
-static path_layout lay_out(const fst_legend *legend, int with_inset)
+static path_layout lay_out(const fst_legend *legend, int more, int with_inset)
 {
-    path_layout l = {.top = fst_legend_head(legend) + 6};
+    path_layout l = {.top = fst_legend_head(legend) + 6 + more / 2};
     l.scale = l.top + SIDE + AXIS;
     l.inset = l.scale + SCALE;
-    l.height = l.inset + (with_inset ? INSET : 0) + fst_legend_foot(legend);
+    l.height = l.inset + (with_inset ? INSET : 0) + fst_legend_foot(legend) + more - more / 2;
     return l;
 }
 
@@ -111,20 +111,22 @@ static void write_plots(fst_figure_file *figure, const fst_path_picture *picture
           figure->script);
 }
 
-static fst_status draw(const fst_view *view, const fst_path_picture *picture, const char *out, int with_inset,
-                       fst_error *error)
+static fst_status draw(const fst_view *view, const fst_path_picture *picture, const char *out,
+                       const fst_figure_options *options, fst_error *error)
 {
     const fst_legend legend = make_legend(view, picture);
-    const path_layout l = lay_out(&legend, with_inset);
+    const path_layout usual = lay_out(&legend, 0, options->inset);
+    const fst_canvas canvas = fst_canvas_for(options->size, usual.height, 0);
+    const path_layout l = lay_out(&legend, canvas.more, options->inset);
     fst_figure_file figure;
-    const fst_status status = fst_figure_begin(&figure, out, FST_FIGURE_WIDTH, l.height, error);
+    const fst_status status = fst_figure_begin(&figure, out, &canvas, error);
     if (status != FST_OK)
         return status;
     write_data(&figure, picture);
     fst_figure_panels(&figure);
     write_frame(&figure, picture, &l);
     write_plots(&figure, picture);
-    if (with_inset)
+    if (options->inset)
         write_inset(&figure, view, &l);
     fst_legend_write(&figure, &legend, l.height);
     return fst_figure_finish(&figure, error);
@@ -140,7 +142,7 @@ fst_status fst_figure_path(const fst_table *table, const char *out, const fst_fi
         return status;
     status = fst_path_picture_of(table, options, &picture, error);
     if (status == FST_OK)
-        status = draw(&view, &picture, out, options->inset, error);
+        status = draw(&view, &picture, out, options, error);
     fst_path_picture_free(&picture);
     return status;
 }

@@ -1,6 +1,7 @@
 /* figure_radius_field.c - r and |B| while the magnet passes under the bead (the paper's Fig. 13). */
 #include "draw/figure_trajectory.h"
 
+#include "draw/chart.h"
 #include "base/constants.h"
 #include "base/error.h"
 #include <festoon/festoon_tools.h>
@@ -46,7 +47,8 @@ static void scale(double *values, size_t count, double factor)
         values[i] *= factor;
 }
 
-static fst_status draw(const fst_view *view, const char *out, const folded *curve, fst_error *error)
+static fst_status draw(const fst_view *view, const char *out, const fst_figure_options *options,
+                       const folded *curve, fst_error *error)
 {
     const fst_column_info *columns[2];
     const double *unused;
@@ -90,7 +92,7 @@ static fst_status draw(const fst_view *view, const char *out, const folded *curv
                                  "3.141592654)",
                        .panels = &panel,
                        .panel_count = 1};
-    return fst_figure_chart(out, &chart, error);
+    return fst_figure_chart_as(out, &chart, NULL, options->size, error);
 }
 
 fst_status fst_figure_radius_field(const fst_table *table, const char *out, const fst_figure_options *options,
@@ -112,7 +114,7 @@ fst_status fst_figure_radius_field(const fst_table *table, const char *out, cons
         return fst_fail(error, FST_NO_MEMORY, out, "no memory for %zu samples", room);
     folded curve = {.bead_angle = memory, .r = memory + room, .b = memory + 2 * room};
     fold(&view, bead_angle, r, b, &curve);
-    status = draw(&view, out, &curve, error);
+    status = draw(&view, out, options, &curve, error);
     free(memory);
     return status;
 }

@@ -229,7 +229,8 @@ fst_status fst_figure_sketch(const fst_params *params, const char *out, fst_erro
     const fst_legend legend = sketch_legend(params, bar);
     const int top = fst_legend_head(&legend) + TITLE, below = top + ABOVE + AXIS + TITLE;
     const int height = below + BELOW + AXIS + fst_legend_foot(&legend);
-    fst_status status = fst_figure_begin(&figure, out, FST_FIGURE_WIDTH, height, error);
+    const fst_canvas canvas = fst_canvas_for(NULL, height, 0);
+    fst_status status = fst_figure_begin(&figure, out, &canvas, error);
     if (status != FST_OK)
         return status;
     write_above(&figure, params, bar);
@@ -287,7 +288,8 @@ fst_status fst_figure_camera(const double *t, const double *x, const double *y, 
     fst_figure_file figure;
     const fst_legend legend = camera_legend(params);
     const int top = fst_legend_head(&legend) + 6, height = top + ABOVE + AXIS + fst_legend_foot(&legend);
-    fst_status status = fst_figure_begin(&figure, out, FST_FIGURE_WIDTH, height, error);
+    const fst_canvas canvas = fst_canvas_for(NULL, height, 0);
+    fst_status status = fst_figure_begin(&figure, out, &canvas, error);
     if (status != FST_OK)
         return status;
     const double reach = 1.1 * fmax(write_frames(&figure, t, x, y, rows, params), 1.0);

@@ -310,16 +310,17 @@ fst_status fst_figure_sweep(const char *path, const fst_sweep_figure *options, c
 {
     const fst_sweep_figure usual = {.kind = FST_FIGURE_PATH};
     shown_sweep s;
-    fst_status status = read_sweep(path, options ? options : &usual, &s, error);
+    options = options ? options : &usual;
+    fst_status status = read_sweep(path, options, &s, error);
     if (status == FST_OK && s.is_map) {
-        status = fst_figure_sweep_map(&s.table, &s.quantities[0], &s.slice, out, error);
+        status = fst_figure_sweep_map(&s.table, &s.quantities[0], &s.slice, options, out, error);
     } else if (status == FST_OK) {
         fst_chart *chart = NULL;
         status = s.slice.varied > 1
                      ? family_of(&s, &chart, error)
                      : fst_sweep_curves(&s.table, s.quantities, s.count, &s.slice, 0, &chart, error);
         if (status == FST_OK)
-            status = fst_figure_chart(out, chart, error);
+            status = fst_figure_chart_as(out, chart, options->title, options->size, error);
         fst_chart_free(chart);
     }
     fst_sweep_table_free(&s.table);

@@ -150,6 +150,10 @@ void fst_sweep_about(const fst_sweep_table *table, char *about, size_t size)
         (void)snprintf(about + strlen(about), size - strlen(about), " runs of %s%g turns of the magnet%s",
                        base->run_until == FST_UNTIL_SETTLED ? "at most " : "", fst_run_periods(base),
                        whole ? "" : " (not complete)");
+    if (table->carry != FST_CARRY_NO)
+        (void)snprintf(about + strlen(about), size - strlen(about),
+                       ", each begun where its neighbour ended, %s",
+                       table->carry == FST_CARRY_UP ? "upwards" : "downwards");
     if (table->refine)
         (void)snprintf(about + strlen(about), size - strlen(about), " at %.3g %% of %lld points",
                        100.0 * (double)table->rows / (double)points, (long long)points);

@@ -13,6 +13,7 @@ enum {
     LEFT = 62, /* pixels about the map */
     NAMES = 108,
     RIGHT = 22,
+    LEAST_FRAME = 200,
     FRAME = 320,
     AXIS = 54,
     SCALE = 72, /* for the scale of colours */
@@ -263,7 +264,8 @@ static fst_legend make_legend(const map *m, const fst_sweep_quantity *quantity, 
     return legend;
 }
 
-static fst_status draw(map *m, const fst_sweep_quantity *quantity, const char *out, fst_error *error)
+static fst_status draw(map *m, const fst_sweep_quantity *quantity, const fst_sweep_figure *options,
+                       const char *out, fst_error *error)
 {
     const fst_grid *grid = m->table->grid;
     fst_figure_file figure;
@@ -278,15 +280,18 @@ static fst_status draw(map *m, const fst_sweep_quantity *quantity, const char *o
     for (int64_t i = 0; m->names && i < point_count(m); ++i)
         if (isfinite(value_of(m, i)))
             occurs[(int)value_of(m, i)] = 1;
-    const fst_legend legend = make_legend(m, quantity, occurs);
+    fst_legend legend = make_legend(m, quantity, occurs);
+    if (options->title)
+        (void)snprintf(legend.title, sizeof legend.title, "%s", options->title);
     const int left = m->axes[0].choice ? NAMES : LEFT, top = fst_legend_head(&legend) + 8;
-    const int scale = top + FRAME + AXIS;
-    const int height = scale + (m->names ? 0 : SCALE) + fst_legend_foot(&legend);
-    status = fst_figure_begin(&figure, out, FST_FIGURE_WIDTH, height, error);
+    const int around = top + AXIS + (m->names ? 0 : SCALE) + fst_legend_foot(&legend);
+    const fst_canvas canvas = fst_canvas_for(options->size, around + FRAME, FRAME - LEAST_FRAME);
+    const int frame_height = FRAME + canvas.more, scale = top + frame_height + AXIS, height = canvas.height;
+    status = fst_figure_begin(&figure, out, &canvas, error);
     if (status != FST_OK)
         return status;
     fst_figure_panels(&figure);
-    const double frame[4] = {left, FST_FIGURE_WIDTH - RIGHT, top, top + FRAME};
+    const double frame[4] = {left, FST_FIGURE_WIDTH - RIGHT, top, top + frame_height};
     fst_figure_place(&figure, height, frame);
     const double below[4] = {frame[0], frame[1], frame[2], frame[3] + TICS};
     fst_figure_axis_label(&figure, height, FST_SIDE_BELOW, m->axes[1].label, FST_COLOUR_BLACK, below);
@@ -303,7 +308,8 @@ static fst_status draw(map *m, const fst_sweep_quantity *quantity, const char *o
 }
 
 fst_status fst_figure_sweep_map(const fst_sweep_table *table, const fst_sweep_quantity *quantity,
-                                const fst_sweep_slice *slice, const char *out, fst_error *error)
+                                const fst_sweep_slice *slice, const fst_sweep_figure *options, const char *out,
+                                fst_error *error)
 {
     map m = {.table = table,
              .slice = slice,
@@ -313,7 +319,7 @@ fst_status fst_figure_sweep_map(const fst_sweep_table *table, const fst_sweep_qu
     if (fst_grid_axis_stride(table->grid, m.axes[0].index) ==
         fst_grid_axis_stride(table->grid, m.axes[1].index))
         return fst_fail(error, FST_BAD_INPUT, out, "random points make no map: use fst_sweep_export()");
-    const fst_status status = draw(&m, quantity, out, error);
+    const fst_status status = draw(&m, quantity, options, out, error);
     free(m.up.places);
     free(m.up.edges);
     free(m.right.places);

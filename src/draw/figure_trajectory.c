@@ -95,7 +95,7 @@ static fst_status draw_chart(const fst_table *table, const fst_figure_options *o
     fst_chart *chart;
     fst_status status = fst_chart_of_trajectory(table, options, 0, &chart, error);
     if (status == FST_OK)
-        status = fst_figure_chart(out, chart, error);
+        status = fst_figure_chart_as(out, chart, options->title, options->size, error);
     fst_chart_free(chart);
     return status;
 }

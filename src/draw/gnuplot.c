@@ -19,11 +19,13 @@ void fst_gnuplot_quote(fst_printed *printed, const char *text)
         fst_text_tame(tame);
     else
         printed->failed = 1;
-    for (const char *c = tame; c && *c; ++c) {
-        if (*c == '\'')
-            (void)fputc('\'', out);
-        (void)fputc(*c, out);
-    }
+    for (const char *c = tame; c && *c; ++c)
+        if (*c != '\'')
+            (void)fputc(*c, out);
+        else if (c > tame && c[-1] != '\'')
+            (void)fputs("''", out);
+        else /* gnuplot takes two quotes for one behind another sign alone */
+            (void)fputs("'.\"'\".'", out);
     (void)fputc('\'', out);
     free(tame);
 }

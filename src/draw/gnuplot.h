@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 /* Write `text` as a gnuplot string.  Within single quotes gnuplot replaces and runs nothing; a quote is
- * doubled.  A line end would end the string, so each control character becomes '?'.  Every text that does not
+ * doubled, or joined as a string of its own.  A line end would end the string, so each control character becomes '?'.  Every text that does not
  * stand in this program's sources must reach gnuplot through this function. */
 void fst_gnuplot_quote(fst_printed *printed, const char *text);
 

@@ -17,7 +17,7 @@ enum {
     MOST_LINES = 5,
     LABEL_LINE = 16,
     LABEL_AWAY = 38, /* of an axis' label from the frame, with the numbers between them */
-    LINE_SIZE = 160
+    LINE_SIZE = 272  /* bytes, four for each letter of the longest line */
 };
 
 /* Mean widths of a letter in pixels; wide ones of DejaVu Sans, the widest of the usual fonts. */
@@ -28,7 +28,7 @@ static int letters(const char *text)
 {
     int count = 0;
     for (; *text; ++text)
-        count += ((unsigned char)*text & 0xC0) != 0x80 && !strchr("_{}", *text);
+        count += ((unsigned char)*text & 0xC0) != 0x80 && !strchr("_{}\\", *text);
     return count;
 }
 
@@ -40,36 +40,55 @@ static int may_end(const char *text, size_t blank)
     return !after_sign && !strchr("0123456789=", before) && !strchr("=", text[blank + 1]);
 }
 
-/* Break a text at blanks into lines of at most `longest` letters; returns how many lines there are. */
-static int break_lines(const char *text, int longest, char lines[MOST_LINES][LINE_SIZE])
+/* The bytes of a text of so many letters; of `plain` text each sign is one. */
+static size_t bytes_of(const char *text, int longest, int plain)
+{
+    size_t end = 0;
+    for (int seen = 0; text[end]; ++end) {
+        seen += ((unsigned char)text[end] & 0xC0) != 0x80 && (plain || !strchr("_{}", text[end]));
+        if (seen > longest)
+            break;
+    }
+    return end;
+}
+
+/* Where a line of a text ends: at a line end, or at the last blank before it becomes too long. */
+static size_t line_end(const char *text, int longest, int plain)
+{
+    const size_t most = bytes_of(text, longest, plain), line = strcspn(text, "\n");
+    if (line <= most)
+        return line;
+    for (size_t blank = most; blank > 0; --blank)
+        if (text[blank] == ' ' && may_end(text, blank))
+            return blank;
+    return most;
+}
+
+/* Break a text into lines of at most `longest` letters, the last of which ends with dots where there were more; returns
+ * how many lines there are. */
+static int break_lines(const char *text, int longest, int plain, char lines[MOST_LINES][LINE_SIZE])
 {
     int count = 0;
     while (*text && count < MOST_LINES) {
-        size_t end = 0, blank = 0;
-        for (int seen = 0; text[end]; ++end) {
-            seen += ((unsigned char)text[end] & 0xC0) != 0x80 && !strchr("_{}", text[end]);
-            if (seen > longest && count + 1 < MOST_LINES)
-                break;
-            if (text[end] == ' ' && may_end(text, end))
-                blank = end;
-        }
-        if (text[end] && blank > 0)
-            end = blank;
-        (void)snprintf(lines[count++], LINE_SIZE, "%.*s", (int)(end < LINE_SIZE ? end : LINE_SIZE - 1), text);
+        const size_t end = line_end(text, longest, plain);
+        const int cut = count + 1 == MOST_LINES && text[end];
+        const size_t kept = cut ? bytes_of(text, longest - 1, plain) : end;
+        (void)snprintf(lines[count++], LINE_SIZE, "%.*s%s", (int)(kept < end ? kept : end), text,
+                       cut ? "…" : "");
         text += end;
-        text += strspn(text, " ");
+        text += *text == '\n' ? 1 : strspn(text, " ");
     }
     return count;
 }
 
 static int title_lines(const fst_legend *legend, char lines[MOST_LINES][LINE_SIZE])
 {
-    return break_lines(legend->title, (int)((FST_FIGURE_WIDTH - 2 * MARGIN) / TITLE_LETTER), lines);
+    return break_lines(legend->title, (int)((FST_FIGURE_WIDTH - 2 * MARGIN) / TITLE_LETTER), 1, lines);
 }
 
 static int about_lines(const fst_legend *legend, char lines[MOST_LINES][LINE_SIZE])
 {
-    return break_lines(legend->about, (int)((FST_FIGURE_WIDTH - 2 * MARGIN) / ABOUT_LETTER), lines);
+    return break_lines(legend->about, (int)((FST_FIGURE_WIDTH - 2 * MARGIN) / ABOUT_LETTER), 1, lines);
 }
 
 void fst_legend_add(fst_legend *legend, fst_sample_kind sample, const char *style, const char *words)
@@ -83,6 +102,17 @@ void fst_legend_add(fst_legend *legend, fst_sample_kind sample, const char *styl
     *entry = (fst_legend_entry){.sample = sample, .length = SAMPLE - 8};
     (void)snprintf(entry->style, sizeof entry->style, "%s", style);
     (void)snprintf(entry->words, sizeof entry->words, "%s", words);
+}
+
+void fst_plain_words(const char *text, char *words, size_t size)
+{
+    size_t used = 0;
+    for (; *text && used + 3 < size; ++text) {
+        if (strchr("_^@&~{}\\", *text))
+            words[used++] = '\\';
+        words[used++] = *text;
+    }
+    words[used] = '\0';
 }
 
 /* The columns of the key, and the width of each. */
@@ -121,7 +151,7 @@ int fst_legend_foot(const fst_legend *legend)
 int fst_lines_of(const char *text, double pixels)
 {
     char lines[MOST_LINES][LINE_SIZE];
-    return break_lines(text, (int)(pixels / LABEL_LETTER), lines);
+    return break_lines(text, (int)(pixels / LABEL_LETTER), 0, lines);
 }
 
 void fst_figure_panels(fst_figure_file *figure)
@@ -129,13 +159,18 @@ void fst_figure_panels(fst_figure_file *figure)
     (void)fputs("set multiplot\nset grid ls 101\n", figure->script);
 }
 
+double fst_figure_across(const fst_figure_file *figure, double pixels)
+{
+    return (pixels + figure->canvas.pad) / (FST_FIGURE_WIDTH + 2.0 * figure->canvas.pad);
+}
+
 void fst_figure_place(fst_figure_file *figure, int height, const double frame[4])
 {
     (void)fprintf(figure->script,
                   "set lmargin at screen %.5f\nset rmargin at screen %.5f\n"
                   "set tmargin at screen %.5f\nset bmargin at screen %.5f\n",
-                  frame[0] / FST_FIGURE_WIDTH, frame[1] / FST_FIGURE_WIDTH, 1.0 - frame[2] / height,
-                  1.0 - frame[3] / height);
+                  fst_figure_across(figure, frame[0]), fst_figure_across(figure, frame[1]),
+                  1.0 - frame[2] / height, 1.0 - frame[3] / height);
 }
 
 void fst_figure_axis_label(fst_figure_file *figure, int height, fst_side side, const char *text,
@@ -144,7 +179,7 @@ void fst_figure_axis_label(fst_figure_file *figure, int height, fst_side side, c
     char lines[MOST_LINES][LINE_SIZE];
     const int level = side == FST_SIDE_BELOW || side == FST_SIDE_ABOVE;
     const double room = level ? frame[1] - frame[0] : frame[3] - frame[2];
-    const int count = break_lines(text, (int)(room / LABEL_LETTER), lines);
+    const int count = break_lines(text, (int)(room / LABEL_LETTER), 0, lines);
     for (int i = 0; i < count; ++i) {
         double x = 0.5 * (frame[0] + frame[1]), y = 0.5 * (frame[2] + frame[3]);
         if (side == FST_SIDE_BELOW)
@@ -157,17 +192,17 @@ void fst_figure_axis_label(fst_figure_file *figure, int height, fst_side side, c
         (void)fputs("set label ", figure->script);
         fst_figure_quote(figure, lines[i]);
         (void)fprintf(figure->script, " at screen %.5f,%.5f center%s textcolor rgb '%s'\n",
-                      x / FST_FIGURE_WIDTH, 1.0 - y / height, level ? "" : " rotate by 90",
+                      fst_figure_across(figure, x), 1.0 - y / height, level ? "" : " rotate by 90",
                       fst_colour_code(colour));
     }
 }
 
 void fst_figure_colour_scale(fst_figure_file *figure, int height, const char *label, const double frame[4])
 {
-    const double wide = FST_FIGURE_WIDTH;
+    const double left = fst_figure_across(figure, frame[0]);
     (void)fprintf(
-        figure->script, "unset cblabel\nset colorbox horizontal user origin %.5f,%.5f size %.5f,%.5f\n",
-        frame[0] / wide, 1.0 - frame[3] / height, (frame[1] - frame[0]) / wide, (frame[3] - frame[2]) / height);
+        figure->script, "unset cblabel\nset colorbox horizontal user origin %.5f,%.5f size %.5f,%.5f\n", left,
+        1.0 - frame[3] / height, fst_figure_across(figure, frame[1]) - left, (frame[3] - frame[2]) / height);
     fst_figure_axis_label(figure, height, FST_SIDE_BELOW, label, FST_COLOUR_BLACK, frame);
 }
 

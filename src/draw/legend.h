@@ -4,8 +4,7 @@
 
 #include "draw/style.h"
 
-/* Every figure is this many pixels wide, so that its words can be read in a column of 86 mm and on a phone. */
-enum { FST_FIGURE_WIDTH = 480, FST_LEGEND_ENTRIES = 32 };
+enum { FST_LEGEND_ENTRIES = 32 };
 
 /* What stands before an entry's words. */
 typedef enum {
@@ -25,14 +24,18 @@ typedef struct fst_legend_entry {
 } fst_legend_entry;
 
 typedef struct fst_legend {
-    char title[256]; /* what the figure shows; free text, in which no letter is lowered */
-    char about[256]; /* of what: "ω = 0.215 (10.7 Hz), dynamics rigid"; "": nothing */
+    char title
+        [1024]; /* what the figure shows; free text, in which no letter is lowered and a line end ends a line */
+    char about[512]; /* of what: "ω = 0.215 (10.7 Hz), dynamics rigid"; "": nothing */
     fst_legend_entry entries[FST_LEGEND_ENTRIES];
     int count;
 } fst_legend;
 
 /* Add an entry, unless the same one is there already (panels may share curves of one meaning). */
 void fst_legend_add(fst_legend *legend, fst_sample_kind sample, const char *style, const char *words);
+
+/* A text as words of a key in which no sign lowers or raises another: of a file's name, say. */
+void fst_plain_words(const char *text, char *words, size_t size);
 
 /* Heights in pixels of the title and of the key; 0 for an empty key. */
 int fst_legend_head(const fst_legend *legend);
@@ -56,6 +59,9 @@ void fst_figure_colour_scale(fst_figure_file *figure, int height, const char *la
 
 /* Begin a multiplot whose panels are placed in pixels by fst_figure_place(). */
 void fst_figure_panels(fst_figure_file *figure);
+
+/* How far a place of the layout lies from the left edge, in parts of the whole width. */
+double fst_figure_across(const fst_figure_file *figure, double pixels);
 
 /* Place the next panel's frame: left, right, top and bottom in pixels from the figure's left and upper edges.
  */

@@ -102,6 +102,14 @@ char *fst_fit_json(const fst_params *params, const fst_fit *fit)
     fst_json_integer(&json, "points", fit->points);
     fst_json_real(&json, "error_scale", fit->error_scale);
     fst_json_real(&json, "aicc", fit->aicc);
+    if (fit->drive != 0.0) {
+        fst_json_open(&json, "drive", '{');
+        fst_json_real(&json, "value", fit->drive);
+        fst_json_real(&json, "error", fit->drive_error);
+        fst_json_real(&json, "given", fit->drive_given);
+        fst_json_text(&json, "unit", "Hz");
+        fst_json_close(&json);
+    }
     if (fit->slip_frames > 0) {
         fst_json_integer(&json, "slip_frames", fit->slip_frames);
         fst_json_real(&json, "slip_misfit", fit->slip_misfit);

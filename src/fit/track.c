@@ -55,6 +55,7 @@ typedef struct film_fit {
     fst_orbit orbit;                /* the latest that was found, its path, and where */
     fit_path path;
     double path_at[FIT_MOST], path_drive; /* 0: none yet */
+    double found_drive, drive_error;      /* Hz, as reported */
 } film_fit;
 
 /* ------------------------------------------------------------------ progress */
@@ -395,6 +396,9 @@ static fst_status estimate(film_fit *f, const double *v, fit_estimate *e, double
                           "the track cannot tell the parameters that are sought apart: seek fewer, or give "
                           "what is known otherwise");
     if (status == FST_OK) {
+        const int k = f->space.count + f->slot[DRIVE];
+        f->found_drive = f->sense * nuisance(f, v, DRIVE);
+        f->drive_error = f->drive * unit_of[DRIVE] * sqrt(covariance.a[k][k]);
         covariance.size = f->space.count;
         e->covariance = covariance;
         memcpy(e->u, v, (size_t)f->space.count * sizeof *v);
@@ -480,6 +484,8 @@ static fst_status report(film_fit *f, const fit_estimate *e, double left, int re
     fit->dof = fit->points - fit->free_count;
     fit->chi2 = fit->points - f->space.count - f->nuisances; /* the noise is measured by it */
     fit->aicc = NAN;
+    fit->drive = f->found_drive;
+    fit->drive_error = f->drive_error;
     (void)fit_space_params(&f->space, e->u, &fit->params);
     for (int i = 0; i < fit->count; ++i) {
         const double deviation = fit_deviation(&p, e, i);
@@ -556,6 +562,7 @@ fst_status fst_fit_track(const fst_params *params, fst_track *track, const fst_f
     memset(&e, 0, sizeof e);
     memset(fit, 0, sizeof *fit);
     fit->params = *params;
+    fit->drive_given = options->drive;
     fst_part part = {options->progress, 0.0, MEASURED, "measure"};
     const fst_progress progress = {&part, fst_part_tell};
     how.drive = options->drive;

@@ -420,8 +420,9 @@ fst_status fst_figure_measurement(const fst_track *track, const fst_measurement 
         legend = make_legend(track, m, curve, strcmp(m->length_unit, "px") == 0);
     const int top = fst_legend_head(&legend) + 6,
               height = top + SQUARE + 2 * TALL + 3 * AXIS + fst_legend_foot(&legend);
+    const fst_canvas canvas = fst_canvas_for(NULL, height, 0);
     if (status == FST_OK)
-        status = fst_figure_begin(&figure, out, FST_FIGURE_WIDTH, height, error);
+        status = fst_figure_begin(&figure, out, &canvas, error);
     if (status == FST_OK) {
         write_track(&figure, track, &p);
         if (curve)

@@ -11,8 +11,9 @@
 
 #include "base/constants.h"
 #include "base/error.h"
-
-enum { MOST_CURVES = 4 };
+#include "draw/caption.h"
+#include "draw/charts_over.h"
+#include "draw/legend.h"
 
 /* A straight piece of a curve, of one quantity, in Hz and SI. */
 typedef struct piece {
@@ -23,7 +24,8 @@ typedef struct piece {
 typedef struct pieces {
     piece *list[FST_MEASURED_COUNT];
     size_t count[FST_MEASURED_COUNT], room;
-    double low, high; /* Hz */
+    double length, gamma; /* m and 1/s: the units of the file's numbers */
+    fst_params *scene;    /* NULL: the file does not say */
 } pieces;
 
 static fst_status make_room(pieces *p, size_t room, fst_error *error)
@@ -41,6 +43,7 @@ static void free_pieces(pieces *p)
 {
     for (int q = 0; q < FST_MEASURED_COUNT; ++q)
         free(p->list[q]);
+    free(p->scene);
 }
 
 static void add_piece(pieces *p, int quantity, const double x[2], double from, double to, int stable)
@@ -110,11 +113,15 @@ static fst_status take_sweep(const char *path, pieces *p, fst_error *error)
         return status;
     const size_t count = (size_t)fst_grid_points(table.grid);
     const fst_params *base = fst_grid_base(table.grid);
-    const double factors[] = {base->magnet_half_length, base->magnet_half_length,
-                              base->friction_gamma / FST_TWO_PI};
+    p->length = base->magnet_half_length;
+    p->gamma = base->friction_gamma;
+    const double factors[] = {p->length, p->length, p->gamma / FST_TWO_PI};
     sweep_row *rows = malloc((count + 1) * sizeof *rows);
-    status = rows ? find_axis(table.grid, path, &axis, &hertz, error)
-                  : fst_fail(error, FST_NO_MEMORY, path, "no memory for %zu rows", count);
+    p->scene = malloc(sizeof *p->scene);
+    if (p->scene && fst_grid_params(table.grid, 0, p->scene, NULL) != FST_OK)
+        *p->scene = *base;
+    status = rows && p->scene ? find_axis(table.grid, path, &axis, &hertz, error)
+                              : fst_fail(error, FST_NO_MEMORY, path, "no memory for %zu rows", count);
     if (status == FST_OK)
         status = make_room(p, count, error);
     for (size_t i = 0; i < count && status == FST_OK; ++i) {
@@ -163,6 +170,10 @@ static fst_status take_branch(const char *path, pieces *p, fst_error *error)
             add_piece(p, FST_MEASURED_BEAD_FREQUENCY, x, rate * a->mean_alpha_dot, rate * b->mean_alpha_dot,
                       a->stable && b->stable);
     }
+    p->length = branch.half_length;
+    p->gamma = branch.gamma;
+    p->scene = branch.scene;
+    branch.scene = NULL;
     fst_branch_free(&branch);
     return status;
 }
@@ -227,143 +238,253 @@ static void add_chi2(const pieces *p, const fst_points *points, int quantity, sc
 
 /* ---------------------------------------------------------------- the figure */
 
-/* Columns of numbers of one panel. */
-typedef struct panel_data {
-    double *x[3], *y[3], *spread;
-    size_t count[3];
-    fst_chart_curve curves[MOST_CURVES];
-    int curve_count;
-    char label[96];
-} panel_data;
+/* Everything that is drawn. */
+typedef struct drawing {
+    const char *const *results, *const *tables;
+    int result_count, table_count;
+    pieces models[FST_CHARTS_OVER];
+    fst_points points[FST_CHARTS_OVER];
+    fst_points_fit fits[FST_CHARTS_OVER * FST_CHARTS_OVER]; /* of model m and table p: m * table_count + p */
+    double frequency, factors[FST_MEASURED_COUNT];          /* of the wanted units, from Hz and SI */
+    const char *labels[FST_MEASURED_COUNT + 1];             /* the last one: of the abscissa */
+    char about[640], model_words[FST_CHARTS_OVER][128], table_words[FST_CHARTS_OVER][128];
+    fst_chart *chart;
+    fst_chart_panel panels[FST_MEASURED_COUNT];
+} drawing;
 
-static double factor_of(int quantity)
+static fst_status no_memory(fst_error *error)
 {
-    int power;
-    (void)fst_unit_customary(fst_measured_unit((fst_measured)quantity), &power);
-    return pow(10.0, power);
+    return fst_fail(error, FST_NO_MEMORY, "", "no memory for a figure");
 }
 
-static fst_status fill_panel(panel_data *d, const pieces *p, const fst_points *points, int quantity,
-                             fst_error *error)
+/* Lengths in mm, or m, and Hz; or in l and gamma, which must be those of all models. */
+static fst_status choose_units(drawing *d, fst_shown_units units, fst_error *error)
 {
-    const size_t room = 3 * p->count[quantity] + points->count + 1;
-    const double factor = factor_of(quantity);
-    memset(d, 0, sizeof *d);
-    double *memory = malloc(7 * room * sizeof *memory);
-    if (!memory)
-        return fst_fail(error, FST_NO_MEMORY, "", "no memory for a figure");
-    for (int k = 0; k < 3; ++k) {
-        d->x[k] = memory + (size_t)(2 * k) * room;
-        d->y[k] = d->x[k] + room;
-    }
-    d->spread = memory + 6 * room;
-    for (size_t i = 0; i < p->count[quantity]; ++i) {
-        const piece *here = &p->list[quantity][i];
-        const int k = here->stable ? 0 : 1;
-        for (int end = 0; end < 3; ++end) { /* both ends, and a gap */
-            d->x[k][d->count[k]] = end < 2 ? here->x[end] : NAN;
-            d->y[k][d->count[k]++] = end < 2 ? factor * here->y[end] : NAN;
-        }
-    }
-    for (size_t i = 0; i < points->count; ++i)
-        if (isfinite(points->rows[i].value[quantity])) {
-            d->x[2][d->count[2]] = points->rows[i].frequency;
-            d->y[2][d->count[2]] = factor * points->rows[i].value[quantity];
-            d->spread[d->count[2]++] = factor * points->rows[i].error[quantity];
-        }
+    static const char *const labels[][FST_MEASURED_COUNT + 1] = {
+        {"mean r (mm)", "deviation of r (mm)", "bead frequency (Hz)", "drive frequency (Hz)"},
+        {"mean r (m)", "deviation of r (m)", "bead frequency (Hz)", "drive frequency (Hz)"},
+        {"mean r (ℓ)", "deviation of r (ℓ)", "mean α' (γ)", "drive ω (γ)"}};
+    const pieces *first = &d->models[0];
+    const int by_scales = units == FST_SHOWN_SCALED;
+    for (int m = 0; by_scales && m < d->result_count; ++m)
+        if (d->models[m].gamma != first->gamma || d->models[m].length != first->length)
+            return fst_fail(error, FST_BAD_INPUT, d->results[m],
+                            "it has another l or another gamma than %.200s: points over both have no scaled "
+                            "units in common",
+                            fst_file_name(d->results[0]));
+    const double length = by_scales ? 1.0 / first->length : units == FST_SHOWN_SI ? 1.0 : 1e3;
+    const double rate = by_scales ? FST_TWO_PI / first->gamma : 1.0;
+    const double factors[] = {length, length, rate};
+    memcpy(d->factors, factors, sizeof factors);
+    memcpy(d->labels, labels[by_scales ? 2 : units == FST_SHOWN_SI], sizeof d->labels);
+    d->frequency = rate;
     return FST_OK;
 }
 
-static void style_panel(panel_data *d, int quantity, fst_chart_panel *panel)
+/* chi^2 of one table before one model, where the figure has one of either. */
+static void tell_fit(const fst_points_fit *fit, const char *name, char text[128])
 {
-    static const char *const labels[] = {"mean r (mm)", "deviation of r (mm)", "bead frequency (Hz)"};
-    static const char *const titles[] = {"model", "model, unstable", "measured"};
-    static const fst_colour colours[] = {FST_COLOUR_BLUE, FST_COLOUR_GREY, FST_COLOUR_VERMILION};
-    static const fst_curve_style styles[] = {FST_CURVE_LINE, FST_CURVE_DASHED, FST_CURVE_ERRORS};
-    for (int k = 0; k < 3; ++k)
-        if (d->count[k] > 0)
-            d->curves[d->curve_count++] = (fst_chart_curve){.title = titles[k],
-                                                            .x = d->x[k],
-                                                            .y = d->y[k],
-                                                            .count = d->count[k],
-                                                            .colour = colours[k],
-                                                            .style = styles[k],
-                                                            .spread = k == 2 ? d->spread : NULL};
-    *panel = (fst_chart_panel){.left_label = labels[quantity],
-                               .low = NAN,
-                               .high = NAN,
-                               .curves = d->curves,
-                               .curve_count = d->curve_count};
+    char words[96];
+    fst_plain_words(name, words, sizeof words);
+    (void)snprintf(text, 128, "%s: χ² = %.4g of %d", words, fit->chi2, fit->counted);
 }
 
-static fst_status draw(const pieces *p, const fst_points *points, const char *out, const fst_points_fit *fit,
-                       fst_error *error)
+/* The words of the key and of the line below the title. */
+static void name_all(drawing *d)
 {
-    panel_data data[FST_MEASURED_COUNT];
-    fst_chart_panel panels[FST_MEASURED_COUNT];
-    char about[128];
-    int shown = 0;
+    static const char *const shown[] = {"drive.frequency", "drive.omega"};
+    char names[FST_CHARTS_OVER][FST_CAPTION_SIZE], same[FST_CAPTION_SIZE];
+    const fst_params *scenes[FST_CHARTS_OVER];
+    const fst_points_fit *fit = &d->fits[0];
+    const int alone = d->result_count == 1 && d->table_count == 1;
+    for (int m = 0; m < d->result_count; ++m)
+        scenes[m] = d->models[m].scene;
+    fst_caption_of_files(scenes, d->results, d->result_count, shown, 2, names, same, sizeof same);
+    for (int m = 0; m < d->result_count; ++m)
+        if (d->result_count > 1 && d->table_count == 1)
+            tell_fit(&d->fits[m], names[m], d->model_words[m]);
+        else
+            fst_plain_words(d->result_count == 1 ? "model" : names[m], d->model_words[m],
+                            sizeof *d->model_words);
+    for (int p = 0; p < d->table_count; ++p)
+        if (d->table_count > 1 && d->result_count == 1)
+            tell_fit(&d->fits[p], fst_file_name(d->tables[p]), d->table_words[p]);
+        else
+            fst_plain_words(d->table_count == 1 ? "measured" : fst_file_name(d->tables[p]), d->table_words[p],
+                            sizeof *d->table_words);
+    if (alone)
+        (void)snprintf(d->about, sizeof d->about, "χ² = %.4g of %d measured numbers%s", fit->chi2, fit->counted,
+                       fit->counted < fit->all ? ", where there is a stable curve" : "");
+    const size_t used = strlen(d->about);
+    (void)snprintf(d->about + used, sizeof d->about - used, "%s%s", used && same[0] ? "; " : "", same);
+}
+
+/* The stable pieces, or the others, of one model as a curve with gaps. */
+static int put_model(drawing *d, int m, int quantity, int stable, int *named, fst_chart_curve *curve)
+{
+    const pieces *p = &d->models[m];
+    const size_t room = 3 * p->count[quantity] + 1;
+    double *x = fst_chart_keep(d->chart, 2 * room * sizeof *x), *y = x + room;
+    size_t count = 0;
+    for (size_t i = 0; x && i < p->count[quantity]; ++i) {
+        const piece *here = &p->list[quantity][i];
+        for (int end = 0; end < 3 && here->stable == stable; ++end, ++count) { /* both ends, and a gap */
+            x[count] = end < 2 ? d->frequency * here->x[end] : NAN;
+            y[count] = end < 2 ? d->factors[quantity] * here->y[end] : NAN;
+        }
+    }
+    *curve =
+        (fst_chart_curve){.title = stable                ? d->model_words[m]
+                                   : d->result_count > 1 ? (*named ? NULL : "unstable")
+                                                         : "model, unstable",
+                          .x = x,
+                          .y = y,
+                          .count = count,
+                          .colour = !stable && d->result_count == 1 ? FST_COLOUR_GREY : fst_chart_colour(m),
+                          .style = stable ? FST_CURVE_LINE : FST_CURVE_DASHED};
+    *named |= !stable && count;
+    return x != NULL;
+}
+
+/* What one table has of a quantity, with its errors. */
+static int put_points(drawing *d, int p, int quantity, fst_chart_curve *curve)
+{
+    static const int signs[] = {7, 5, 9, 13, 11, 15}; /* discs, squares, triangles, ... of gnuplot */
+    const fst_points *points = &d->points[p];
+    double *x = fst_chart_keep(d->chart, 3 * (points->count + 1) * sizeof *x);
+    double *y = x + points->count, *spread = y + points->count;
+    size_t count = 0;
+    for (size_t i = 0; x && i < points->count; ++i)
+        if (isfinite(points->rows[i].value[quantity])) {
+            x[count] = d->frequency * points->rows[i].frequency;
+            y[count] = d->factors[quantity] * points->rows[i].value[quantity];
+            spread[count++] = d->factors[quantity] * points->rows[i].error[quantity];
+        }
+    *curve = (fst_chart_curve){.title = d->table_words[p],
+                               .x = x,
+                               .y = y,
+                               .spread = spread,
+                               .count = count,
+                               .colour = fst_chart_colour(d->result_count + p),
+                               .sign = signs[p % (int)(sizeof signs / sizeof *signs)],
+                               .style = FST_CURVE_ERRORS};
+    return x != NULL;
+}
+
+/* A panel of one quantity, if a table has it. */
+static int put_panel(drawing *d, int quantity, int *named)
+{
+    fst_chart_curve *curves = fst_chart_keep(d->chart, 3 * FST_CHARTS_OVER * sizeof *curves);
+    fst_chart_panel *panel = &d->panels[d->chart->panel_count];
+    int good = curves != NULL, count = 0;
+    size_t measured = 0;
+    for (int m = 0; m < d->result_count && good; ++m)
+        for (int stable = 1; stable >= 0 && good; --stable)
+            good = put_model(d, m, quantity, stable, named, &curves[count++]);
+    for (int p = 0; p < d->table_count && good; ++p) {
+        good = put_points(d, p, quantity, &curves[count]);
+        measured += curves[count++].count;
+    }
+    *panel = (fst_chart_panel){
+        .left_label = d->labels[quantity], .low = NAN, .high = NAN, .curves = curves, .curve_count = count};
+    d->chart->panel_count += measured > 0;
+    return good;
+}
+
+/* From the first frequency of a curve or a point to the last one. */
+static void choose_range(drawing *d)
+{
     double low = INFINITY, high = -INFINITY;
-    fst_status status = FST_OK;
-    for (int q = 0; q < FST_MEASURED_COUNT && status == FST_OK; ++q) {
-        status = fill_panel(&data[shown], p, points, q, error);
-        if (status != FST_OK)
-            break;
-        if (data[shown].count[2] == 0) { /* nothing was measured of it */
-            free(data[shown].x[0]);
-            continue;
-        }
-        style_panel(&data[shown], q, &panels[shown]);
-        ++shown;
-        for (size_t i = 0; i < p->count[q]; ++i) {
-            low = fmin(low, fmin(p->list[q][i].x[0], p->list[q][i].x[1]));
-            high = fmax(high, fmax(p->list[q][i].x[0], p->list[q][i].x[1]));
-        }
-    }
-    for (size_t i = 0; i < points->count; ++i) {
-        low = fmin(low, points->rows[i].frequency);
-        high = fmax(high, points->rows[i].frequency);
-    }
-    const double margin = 0.02 * (high - low) + 1e-3;
-    (void)snprintf(about, sizeof about, "χ² = %.4g of %d measured numbers%s", fit->chi2, fit->counted,
-                   fit->counted < fit->all ? ", where there is a stable curve" : "");
-    const fst_chart chart = {.title = "Measured points over the computed curves",
-                             .about = about,
-                             .x_label = "drive frequency (Hz)",
-                             .x_low = low - margin,
-                             .x_high = high + margin,
-                             .panels = panels,
-                             .panel_count = shown};
-    if (status == FST_OK)
-        status = fst_figure_chart(out, &chart, error);
-    for (int i = 0; i < shown; ++i)
-        free(data[i].x[0]);
+    for (int i = 0; i < d->chart->panel_count; ++i)
+        for (int c = 0; c < d->panels[i].curve_count; ++c)
+            for (size_t k = 0; k < d->panels[i].curves[c].count; ++k) {
+                low = fmin(low, d->panels[i].curves[c].x[k]); /* not NAN, which is a gap */
+                high = fmax(high, d->panels[i].curves[c].x[k]);
+            }
+    const double margin = 0.02 * (high - low) + 1e-3 * d->frequency;
+    d->chart->x_low = low - margin;
+    d->chart->x_high = high + margin;
+}
+
+static fst_status draw(drawing *d, const fst_sweep_figure *options, const char *out, fst_error *error)
+{
+    int good = (d->chart = fst_chart_new()) != NULL, named = 0;
+    if (!good)
+        return no_memory(error);
+    name_all(d);
+    *d->chart = (fst_chart){.title = "Measured points over the computed curves",
+                            .about = d->about[0] ? d->about : NULL,
+                            .x_label = d->labels[FST_MEASURED_COUNT],
+                            .panels = d->panels};
+    for (int q = 0; q < FST_MEASURED_COUNT && good; ++q)
+        good = put_panel(d, q, &named);
+    choose_range(d);
+    const fst_status status =
+        good ? fst_figure_chart_as(out, d->chart, options->title, options->size, error) : no_memory(error);
+    fst_chart_free(d->chart);
     return status;
 }
 
-fst_status fst_figure_points(const char *results, const char *points_path, const char *out, fst_points_fit *fit,
-                             fst_error *error)
+/* chi^2 of a table before a model. */
+static fst_points_fit fit_of(const pieces *p, const fst_points *points)
 {
-    pieces p = {.room = 0};
-    fst_points points = {0};
     fst_points_fit found = {0.0, 0, 0};
     scaled by_scale = {0.0, 0.0};
-    int is_sweep = 0;
-    fst_status status = fst_points_read(points_path, &points, error);
-    if (status == FST_OK)
-        status = fst_is_sweep(results, &is_sweep, error);
-    if (status == FST_OK)
-        status = is_sweep ? take_sweep(results, &p, error) : take_branch(results, &p, error);
-    for (int q = 0; q < FST_MEASURED_COUNT && status == FST_OK; ++q)
-        add_chi2(&p, &points, q, &by_scale, &found);
+    for (int q = 0; q < FST_MEASURED_COUNT; ++q)
+        add_chi2(p, points, q, &by_scale, &found);
     found.chi2 -= by_scale.product * by_scale.product / (1.0 + by_scale.square);
-    if (status == FST_OK && found.all == 0)
-        status = fst_fail(error, FST_BAD_INPUT, points_path, "this table has no measured number");
+    return found;
+}
+
+static fst_status read_all(drawing *d, fst_error *error)
+{
+    fst_status status = FST_OK;
+    for (int p = 0; p < d->table_count && status == FST_OK; ++p)
+        status = fst_points_read(d->tables[p], &d->points[p], error);
+    for (int m = 0; m < d->result_count && status == FST_OK; ++m) {
+        int is_sweep = 0;
+        status = fst_is_sweep(d->results[m], &is_sweep, error);
+        if (status == FST_OK)
+            status = is_sweep ? take_sweep(d->results[m], &d->models[m], error)
+                              : take_branch(d->results[m], &d->models[m], error);
+    }
+    for (int i = 0; i < d->result_count * d->table_count && status == FST_OK; ++i) {
+        const int p = i % d->table_count;
+        d->fits[i] = fit_of(&d->models[i / d->table_count], &d->points[p]);
+        if (d->fits[i].all == 0)
+            status = fst_fail(error, FST_BAD_INPUT, d->tables[p], "this table has no measured number");
+    }
+    return status;
+}
+
+fst_status fst_figure_points(const char *const *results, int result_count, const char *const *tables,
+                             int table_count, const fst_sweep_figure *options, const char *out,
+                             fst_points_fit *fits, fst_error *error)
+{
+    const fst_sweep_figure usual = {.kind = FST_FIGURE_PATH};
+    options = options ? options : &usual;
+    if (result_count < 1 || result_count > FST_CHARTS_OVER || table_count < 1 || table_count > FST_CHARTS_OVER)
+        return fst_fail(error, FST_BAD_INPUT, "fst_figure_points",
+                        "%d tables of points over %d files: 1 to %d of either are expected", table_count,
+                        result_count, FST_CHARTS_OVER);
+    drawing *d = calloc(1, sizeof *d);
+    if (!d)
+        return no_memory(error);
+    d->results = results;
+    d->tables = tables;
+    d->result_count = result_count;
+    d->table_count = table_count;
+    fst_status status = read_all(d, error);
     if (status == FST_OK)
-        status = draw(&p, &points, out, &found, error);
-    if (status == FST_OK && fit)
-        *fit = found;
-    free_pieces(&p);
-    fst_points_free(&points);
+        status = choose_units(d, options->units, error);
+    if (status == FST_OK)
+        status = draw(d, options, out, error);
+    if (status == FST_OK && fits)
+        memcpy(fits, d->fits, (size_t)(result_count * table_count) * sizeof *fits);
+    for (int m = 0; m < result_count; ++m)
+        free_pieces(&d->models[m]);
+    for (int p = 0; p < table_count; ++p)
+        fst_points_free(&d->points[p]);
+    free(d);
     return status;
 }

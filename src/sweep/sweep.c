@@ -22,6 +22,7 @@
 #include "base/watch.h"
 #include "host/threads.h"
 #include "sweep/checkpoints.h"
+#include "sweep/outcomes.h"
 #include "sweep/ranks.h"
 #include "sweep/refined.h"
 #include "sweep/workers.h"
@@ -255,6 +256,7 @@ static fst_status write_rows(sweep *s, const fst_sweep_record *rows, int count, 
         status = commit(s, error);
     if (status == FST_OK) {
         s->counts->added += count;
+        fst_outcomes_add(fst_grid_row_kind(s->identity.grid), rows, count, s->counts);
         s->counts->there += count;
     }
     return status;

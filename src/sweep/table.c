@@ -75,6 +75,7 @@ fst_status fst_sweep_read(const char *path, const char *const *keys, int count, 
     if (status == FST_OK) {
         table->refine = refining.levels;
         table->wanted = fst_sweep_point_count(&file.identity);
+        table->carry = file.identity.carry;
         table->grid = file.grid;
         status = read_values(&file, keys, count, table, error);
         file.grid = status == FST_OK ? NULL : file.grid;

@@ -333,8 +333,8 @@ static fst_status take_frames(const choice *c, const track_spot *spots, size_t c
     }
     if (status == FST_OK && track->rows < 2)
         status = fst_fail(error, FST_BAD_INPUT, from >= 0 ? "fst_track_options.from" : "fst_track_options.to",
-                          "the track has frames %.0f to %.0f: of those asked for it has %s", spots[0].frame,
-                          spots[count - 1].frame, track->rows ? "one" : "none");
+                          "%.200s has frames %.0f to %.0f: of those asked for it has %s", c->path,
+                          spots[0].frame, spots[count - 1].frame, track->rows ? "one" : "none");
     return status;
 }
 

@@ -39,8 +39,8 @@ class Words(Case):
         return said
 
     def test_options(self):
-        """--size is none of plot, and far from all of its options."""
-        said = self.said("plot", "a.h5", "--size", "3", "-o", "a.svg")
+        """--threads is none of plot, and far from all of its options."""
+        said = self.said("plot", "a.h5", "--threads", "3", "-o", "a.svg")
         self.assertNotIn("nearest", said)
         for name in ("--output", "--kind", "--points"):
             self.assertIn(name, said)

@@ -2,8 +2,10 @@
 
 tests: fit/json.c cli/fit.c fit/figure_fit.c measure/points.c"""
 
+import csv
 import json
 import os
+import random
 import signal
 import subprocess
 import tempfile
@@ -144,6 +146,29 @@ class Fit(unittest.TestCase):
         with open(path, "w", encoding="utf-8") as text:
             text.write("\n".join(["frame,t [s],x [mm],y [mm],track,doubts", *rows]) + "\n")
         self.refused(["--track", path, "--free", "model.kappa"], "the film has 2 beads")
+
+    def test_the_drive_of_a_film(self):
+        """It is said how the magnet turned, with an error that covers the truth, and from where that is known."""
+        path = os.path.join(self.folder.name, "film.csv")
+        done = subprocess.run([FESTOON, "run", "--set", "drive.frequency=12Hz", "--set", "run.periods=100", "--set", "run.discard=60",
+                               "--csv", path, "--units", "lab", "--fps", "240"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(path, encoding="utf-8") as text:
+            rows = list(csv.reader(line for line in text if not line.startswith("#")))
+        places = [[word.split(" [")[0] for word in rows[0]].index(name) for name in ("t", "x", "y")]
+        chance = random.Random(4)
+        lines = [",".join([row[places[0]], *(f"{float(row[k]) + chance.gauss(0, 0.05):.5f}" for k in places[1:])]) for row in rows[1:]]
+        with open(path, "w", encoding="utf-8") as text:
+            text.write("\n".join(["t [s],x [mm],y [mm]", *lines]) + "\n")
+        for words, given in (((), None), (("--drive", "12.01Hz"), 12.01)):
+            found = json.loads(festoon("fit", "--track", path, "--free", "model.kappa,friction.gamma", "--json", *words)[1])["drive"]
+            self.assertEqual((found["given"], found["unit"]), (given, "Hz"))
+            self.assertLess(abs(found["value"] - 12), 4 * found["error"])
+            self.assertLess(found["error"], 1e-3)
+            said = festoon("fit", "--track", path, "--free", "model.kappa,friction.gamma", *words)[1]
+            self.assertRegex(said, r"\n  drive +12\.0*\d* \+- 0\.0*\d+ Hz .*, " + (f"sought from the {given} Hz given" if given else "as the track told it")
+                             if found["value"] >= 12 else r"\n  drive +11\.9+\d* \+- ")
+        self.assertNotIn("drive", json.loads(festoon("fit", self.table, "--free", "model.kappa,friction.gamma", "--json")[1]))
 
     def test_bad_wishes(self):
         self.refused([self.table], "--free model.kappa,friction.gamma")

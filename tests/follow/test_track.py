@@ -164,7 +164,9 @@ class Track(films.OnFilms):
             (self.folder / "to" / name).unlink()
         (self.folder / "none.mp4").write_bytes(b"nothing")
         done = run("track", self.folder / "none.mp4", *films_of_two, "-o", self.folder / "to")
-        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual([line.split() for line in done.stdout.splitlines()],
+                         [table[0], [*5 * "-", "failed:", str(self.folder / "none.mp4")], *table[1:]])
         self.assertRegex(done.stderr, r"none\.mp4: .*\n(?s:.*)wrote .*b\.c\.csv(?s:.*)not all films could be tracked")
         self.assertEqual((self.folder / "to" / "b.c.csv").read_bytes(), alone)
         for words, wanted in [([*films_of_two, "-o", self.folder / "o.csv"], "no folder"),

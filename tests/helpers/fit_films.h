@@ -96,6 +96,7 @@ static inline void check(const fst_fit *fit)
     assert_true(fit->parameters[1].error < 3.0 && fit->kappa_gamma2_error < 2e-3 * strength);
     assert_true(fit->correlation[0][1] < -0.98);
     assert_non_null(strstr(fit->weakest, "friction.gamma"));
+    assert_true(fabs(fabs(fit->drive) - 11.3) < 4.0 * fit->drive_error && fit->drive_error < 0.01);
 }
 
 #endif

@@ -138,6 +138,30 @@ class Points(Program):
         least = min(s * s + sum(((0.03 - s * 0.02 * 1.03) * length / 0.1) ** 2 for length in lengths)
                     for s in (1e-4 * k for k in range(20000)))
         self.assertAlmostEqual(float(re.search(r"chi\^2 = ([\d.]+) of 3", said)[1]), least, delta=1e-4)
+        # Several tables and several results: each pair has the chi^2 that it has alone, and numbers in scaled units.
+        dry = self.path("dry.db")
+        self.festoon("sweep", "--over", "drive.frequency=15Hz:16Hz:3", "--set", "run.periods=120", "--set", "run.discard=80",
+                     "--set", "friction.law=coulomb", "-o", dry)
+        odd = self.write("a_b{c}^d.csv", "frequency [Hz],mean_r [mm],mean_r_error [mm]\n15.5,20,0.5\n")
+        alone = [re.search(r"(chi\^2 = .*)", self.festoon("plot", result, "--points", table, "-o", self.path("fig.svg")).stderr)[1]
+                 for result in (base, dry) for table in (points, odd)]
+        said = self.festoon("plot", base, dry, "--points", points, "--points", odd, "--units", "scaled", "-o", self.path("fig.svg")).stdout
+        self.assertEqual([line.split(": ", 1)[1] for line in said.splitlines()], alone)
+        with open(self.path("fig.gp"), encoding="utf-8") as script:
+            script = script.read()
+        self.assertIn(r"'a\_b\{c\}\^d.csv'", script)
+        self.assertEqual([name in script for name in ("'friction.law viscous'", "'friction.law coulomb'", "'points.csv'")], [True] * 3)
+        with open(self.path("fig.dat"), encoding="utf-8") as data:
+            block = next(text for text in data.read().split("\n\n\n") if text.startswith("# panel1-curve6"))
+        found = [float(word) for word in block.split("\n")[2].split()]
+        for number, truth in zip(found, (15.5 * 2 * math.pi / 312.5, 20 / 23, 19.5 / 23, 20.5 / 23), strict=True):
+            self.assertAlmostEqual(number, truth, 7)
+        short = self.path("short.db")
+        self.festoon("sweep", "--over", "drive.frequency=15Hz:16Hz:3", "--set", "run.periods=6", "--set", "run.discard=2",
+                     "--set", "friction.gamma=200", "-o", short)
+        self.assertIn("another gamma than sweep.db", self.festoon("plot", base, short, "--points", odd, "--units", "scaled", "-o",
+                                                                  self.path("no.svg"), status=2).stderr)
+        self.festoon("plot", base, short, "--points", odd, "-o", self.path("fig.svg"))
         other = self.path("other.db")
         self.festoon("sweep", "--over", "friction.gamma=300:310:2", "--set", "run.periods=6", "--set", "run.discard=2",
                      "-o", other)

@@ -1,6 +1,7 @@
 """Sweeps as a user meets them: rows, refusals, carrying, exports, figures.
 
-tests: sweep/sweep.c sweep/workers.c sweep/chains.c sweep/columns.c sweep/export.c cli/sweep.c"""
+tests: sweep/sweep.c sweep/workers.c sweep/chains.c sweep/columns.c sweep/export.c sweep/outcomes.c
+  cli/sweep.c"""
 
 import csv
 import io
@@ -274,6 +275,39 @@ class Exports(Case):
                     self.assertEqual(value, float(text), name)
         self.assertEqual(file.attribute("mean_r", "unit"), "l")
         self.assertEqual(file.attribute("drive.frequency", "unit"), "Hz")
+
+    def test_what_became_of_the_points(self):
+        """The table tells the rows' own outcomes and work, whatever computed them; of runs that failed, how many there are."""
+        words = ["sweep", "--set", "run.periods=30", "--set", "run.discard=10", "--set", "friction.law=coulomb", "--set",
+                 "model.eps=0.10869565217391304", "--over", "start.r=0.10869565217391304,0.9", "--over", "drive.frequency=2Hz:20Hz:10", "-o"]
+        told = json.loads(self.good(*words, self.path("a.db"), "--json", "--threads", "1"))["outcomes"]
+        self.assertEqual(json.loads(self.good(*words, self.path("b.db"), "--json", "--threads", "3"))["outcomes"], told)
+        wanted = {}
+        for row in json.loads(self.good("export", self.path("a.db"), "--json")):
+            wanted.setdefault(row["regime"] or "failed", []).append(row)
+        self.assertEqual({one["outcome"]: one["points"] for one in told}, {name: len(rows) for name, rows in wanted.items()})
+        self.assertLess({"failed", "ejected"}, set(wanted))
+        self.assertEqual(told[-1], {"outcome": "failed", "points": 10})
+        everything = sum(one["rhs_calls"] for one in told[:-1])
+        for one in told[:-1]:
+            rows = wanted[one["outcome"]]
+            self.assertEqual(one["rhs_calls"], sum(row["rhs_calls"] for row in rows))
+            self.assertAlmostEqual(one["share"], one["rhs_calls"] / everything, 5)
+            self.assertAlmostEqual(one["mean_periods"], sum(row["periods"] for row in rows) / len(rows), 4)
+        self.assertEqual(json.loads(self.good(*words, self.path("a.db"), "--json"))["outcomes"], [])  # no row was added
+        said = self.good(*words, self.path("c.db"))
+        self.assertRegex(said, rf"ejected +{len(wanted['ejected'])} +\d+\.\d\d % +\d+\.\d+\n")
+        self.assertRegex(said, r"failed +10\n$")
+
+    def test_outcomes_of_several_beads(self):
+        scene = self.path("two.yaml")
+        with open(scene, "w", encoding="utf-8") as text:
+            text.write("drive: {frequency: 30 Hz}\nrun: {periods: 6, discard: 1}\nbeads: [{start.phi: 3 deg}, {start.phi: 40 deg}]\n")
+        out = self.good("sweep", scene, "--over", "impact.restitution=0,0.5", "-o", self.path("a.db"), "--json")
+        rows = json.loads(self.good("export", self.path("a.db"), "--json"))
+        self.assertEqual({one["outcome"]: one["points"] for one in json.loads(out)["outcomes"]},
+                         {name: sum(row["outcome"] == name for row in rows) for name in {row["outcome"] for row in rows}})
+        self.assertEqual(sum(one["rhs_calls"] for one in json.loads(out)["outcomes"]), sum(row["rhs_calls"] for row in rows))
 
     def test_figures(self):
         self.good("sweep", *SHORT, "--over", "drive.frequency=9Hz:20Hz:12", "-o", self.path("line.db"))

@@ -193,12 +193,19 @@ class BadFiles(Measure):
                                (("--scale", "-1mm"), "--scale"), (("--format", "traker"), "tracker"),
                                (("--drive", "0Hz"), "--drive"), (("--drive", "10.7 furlongs"), "--drive"),
                                (("--exposure", "2"), "--exposure"), (("--exposure", "2s"), "--exposure"),
-                               (("--from", "240"), "--from: the track has frames 0 to 239: of those asked for it has none"),
-                               (("--to", "0"), "--to: the track has frames 0 to 239: of those asked for it has one"),
+                               (("--from", "240"), "csv has frames 0 to 239: of those asked for it has none"),
+                               (("--to", "0"), "csv has frames 0 to 239: of those asked for it has one"),
                                (("--from", "2", "--to", "1"), "none"), (("--from", "-1"), "--from"), (("--to", "1.5"), "--to"),
                                (("--only", "b"), "no track")]:
             with self.subTest(options=options):
                 self.assertIn(words, self.refused(good, *options))
+
+    def test_frames_of_one_of_several_tracks(self):
+        """Which of them ends before --from is said."""
+        long, short = self.write(tracks.own(self.ROWS), "long.csv"), self.write(tracks.own(self.ROWS[:100]), "short.csv")
+        done = subprocess.run([FESTOON, "measure", long, short, "--from", "120"], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertRegex(done.stderr, "--from: .*short.csv has frames 0 to 99: of those asked for it has none")
 
     def test_a_track_is_not_overwritten(self):
         path = self.write(tracks.own(self.ROWS))
