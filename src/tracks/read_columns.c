@@ -171,12 +171,13 @@ fst_status track_read_columns(const fst_text *text, size_t header, int variant, 
     (void)header;
     reader r = {.style = &styles[variant], .raw = raw};
     int more = 1, units = r.style->spots;
-    /* pandas writes an index called frame beside the column of this name. */
+    /* pandas writes an index called frame beside the column of this name; a table of `festoon run` has nX and n_x, and
+     * no turning, because it says no errors. */
     for (int role = 0; role < ROLES; ++role)
         r.columns[role] = (fst_text_column){.names = r.style->names[role] ? r.style->names[role] : "",
                                             .kind = FST_UNIT_NUMBER,
                                             .needed = role == X || role == Y,
-                                            .repeats = role == FRAME};
+                                            .repeats = role == FRAME || role >= TURNING};
     raw->y_down = r.style->y_down;
     fst_text_begin(&r.table, text, error);
     r.table.ragged = 1;

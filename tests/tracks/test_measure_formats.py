@@ -97,17 +97,23 @@ class Formats(Measure):
         self.check(tracks.dltdv(self.ROWS, 5), "--fps", "240", "--format", "dltdv5", shown="DLTdv 5")
 
     def test_trajectory(self):
-        """A run of festoon's own, as CSV and as HDF5: the numbers of the run come out again."""
+        """A run of festoon's own, as CSV in all units: the numbers of the run come out again."""
+        for units in ("scaled", "lab", "si"):
+            with self.subTest(units=units):
+                self.check_trajectory("--units", units)
+
+    def check_trajectory(self, *words):
         path = os.path.join(self.folder.name, "run.csv")
         done = subprocess.run([FESTOON, "run", "--csv", path, "--json", "--set", "run.periods=60", "--set",
-                               "run.discard=20", "--set", "start.r=0.79"], capture_output=True, text=True)
+                               "run.discard=20", "--set", "start.r=0.79", *words], capture_output=True, text=True)
         run = json.loads(done.stdout)
         found = subprocess.run([FESTOON, "measure", path, "--json", "--drive", "10.7Hz"], capture_output=True, text=True)
         self.assertEqual(found.returncode, 0, found.stderr)
         found = json.loads(found.stdout)
-        self.assertEqual(found["length_unit"], "mm")
+        half_length = 0.023 if "si" in words else 23
+        self.assertEqual(found["length_unit"], "m" if "si" in words else "mm")
         self.assertAlmostEqual(found["drive_from_track_hz"], 10.7, delta=0.01)
-        self.assertAlmostEqual(found["mean_r"], 23 * run["mean_r"], delta=0.02 * 23)
+        self.assertAlmostEqual(found["mean_r"], half_length * run["mean_r"], delta=0.02 * half_length)
 
     def test_which_track(self):
         text = tracks.trackpy(self.ROWS)
