@@ -21,5 +21,5 @@ async function load() {
 window.festoonLab = {};
 window.festoonLab.ready = load();
 window.festoonLab.ready.catch((error) => {
-    document.getElementById("notice").textContent = `The page could not begin: ${error.message}`;
+    document.getElementById("notice").textContent = window.festoonLab.couldNotBegin?.(error) ?? `The page could not begin: ${error.message}`;
 });

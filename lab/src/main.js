@@ -10,8 +10,9 @@ import { Pace } from "./pace.js";
 import { Panels } from "./panels.js";
 import { Pool } from "./pool.js";
 import { Recording } from "./recording.js";
+import { PRESETS } from "./scenes.js";
 import { readAddress, takeGood, writeAddress } from "./state.js";
-import { PRESETS, T } from "./texts.js";
+import { languageOf, say, speak, T } from "./texts.js";
 import { QUANTITIES, SPACING, Trail, unitsOf } from "./trail.js";
 import { View2D } from "./view2d.js";
 import { View3D } from "./view3d.js";
@@ -29,7 +30,7 @@ class Lab {
         this.pool = pool;
         this.known = (key) => core.knows(key);
         this.scene = {};
-        this.settings = { slow: 20, colour: "nz", turns: TURNS, arrows: new Set(), ramp: null, settle: 0 };
+        this.settings = { slow: 20, colour: "nz", turns: TURNS, arrows: new Set(), ramp: null, settle: 0, language: null };
         this.trail = new Trail(ROOM);
         this.camera = new Camera();
         this.trails = [this.trail]; /* of each bead; `trail` is that of the first */
@@ -45,10 +46,8 @@ class Lab {
 
     openView() {
         const solid = $("view"), plain = solid.cloneNode();
-        for (const canvas of [solid, plain]) {
-            canvas.setAttribute("aria-label", T.viewLabel);
+        for (const canvas of [solid, plain])
             this.camera.listen(canvas, () => this.wake());
-        }
         try {
             const deep = (this.deep = new View3D(solid, ROOM)); /* kept: off the page, its canvas would be collected as garbage */
             solid.addEventListener("webglcontextlost", () => {
@@ -74,6 +73,7 @@ class Lab {
         if (focused)
             view.canvas.focus();
         this.view = view;
+        view.canvas.setAttribute("aria-label", T.viewLabel);
         this.camera.flat = view instanceof View2D;
         if (this.units) {
             this.furnish();
@@ -134,6 +134,23 @@ class Lab {
             return;
         this.range = this.trail.range(QUANTITIES[this.settings.colour]);
         this.view.draw({ rows: this.rows, trails: this.trails, range: this.range, camera: this.camera, arrows: this.settings.arrows });
+    }
+
+    /* All words in the language that was chosen, else in one of the browser's; nothing else changes. */
+    speak() {
+        this.language = this.settings.language ?? languageOf(navigator.languages);
+        speak(this.language);
+        this.tell("");
+        this.controls.build($("main-controls"), $("all-controls"));
+        this.panels.build();
+        this.files.build();
+        this.lesson.build();
+        this.namePlay();
+        if (!this.view)
+            return;
+        this.controls.show(null, this.scene);
+        this.panels.showView();
+        this.wake();
     }
 
     /* ------------------------------------------------------------ scene and motion */
@@ -363,8 +380,12 @@ class Lab {
         on = this.playing;
         this.pace.reset();
         this.wake();
-        $("play").textContent = on ? T.pause : T.play;
-        $("play").setAttribute("aria-pressed", String(on));
+        this.namePlay();
+    }
+
+    namePlay() {
+        $("play").textContent = this.playing ? T.pause : T.play;
+        $("play").setAttribute("aria-pressed", String(this.playing));
     }
 
     step() {
@@ -384,6 +405,7 @@ class Lab {
     changed() {
         this.remember();
         clearTimeout(this.timer);
+        this.waiting = true; /* for what a run says of the parameters */
         $("regime").textContent = T.wait;
         this.timer = setTimeout(() => this.runNow(), RUN_DELAY);
         this.panels.forgetSweep(JSON.stringify({ ...this.scene, "drive.frequency": 0, "drive.omega": 0 }));
@@ -391,9 +413,11 @@ class Lab {
 
     async runNow() {
         try {
-            this.panels.showRun(await this.pool.runLatest({ ...this.scene }, (share) => {
-                $("regime").textContent = T.waitShare(Math.floor(100 * share));
-            }));
+            const result = await this.pool.runLatest({ ...this.scene }, (share) => {
+                $("regime").textContent = say(T.waitShare, { n: Math.floor(100 * share) });
+            });
+            this.waiting = false;
+            this.panels.showRun(result);
         } catch (error) {
             if (error.status !== 8)
                 $("regime").textContent = sentence(error);
@@ -414,6 +438,8 @@ class Lab {
             words["ui.settle"] = String(s.settle);
         if (this.lesson.at >= 0)
             words["ui.step"] = String(this.lesson.at + 1);
+        if (s.language)
+            words["ui.lang"] = s.language;
         return words;
     }
 
@@ -456,7 +482,11 @@ class Lab {
     /* The state that the address tells, of which what is bad or unknown is named and left out.  The Back and Forward of
      * the browser come here too. */
     openAddress() {
-        const { scene, view, unknown } = readAddress(location.hash, this.known), step = Number(view["ui.step"]);
+        const { scene, view: { "ui.lang": language, ...view }, unknown } = readAddress(location.hash, this.known), step = Number(view["ui.step"]);
+        if (language && language !== this.language) {
+            this.settings.language = language;
+            this.speak();
+        }
         if (step >= 1) {
             this.lesson.open(step - 1);
             return;
@@ -468,7 +498,7 @@ class Lab {
             const good = takeGood(scene, (some) => this.core.setScene(some)), wrong = good.errors.map((error) => `${sentence(error)}.`);
             this.open({ scene: good.scene, view });
             if (unknown.length)
-                wrong.push(T.unknown(unknown.join(", ")));
+                wrong.push(say(T.unknown, { words: unknown.join(", ") }));
             if (wrong.length)
                 this.tell(`${wrong.join(" ")} ${T.restTaken}`, good.errors.length > 0);
         }
@@ -543,11 +573,11 @@ async function begin() {
         },
     });
     lab.controls = new Controls(core, (key, text) => lab.change(key, text));
-    lab.controls.build($("main-controls"), $("all-controls"));
     lab.panels = new Panels(lab, SLOWS);
     lab.lesson = new Lesson(lab, $("lesson"));
     lab.files = new Files(lab);
-    lab.panels.build();
+    lab.panels.listen();
+    lab.speak();
     lab.openView();
     lab.openAddress();
     if (lab.camera.flat && !$("notice").textContent)
@@ -558,6 +588,8 @@ async function begin() {
     return window.festoonLab;
 }
 
+speak(languageOf(navigator.languages));
+window.festoonLab.couldNotBegin = (error) => say(T.couldNotBegin, { why: error.message });
 /* loader.js calls it, and shows what it throws. */
 window.festoonLab.begin = () => begin().catch((error) => {
     throw new Error(sentence(error), { cause: error });

@@ -8,6 +8,7 @@ import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import puppeteer from "puppeteer-core";
+import { TABLES } from "../src/texts.js";
 import { goldenHashes } from "./golden.mjs";
 
 const { FESTOON, SOURCE_DIR, BUILD_DIR, CHROMIUM, PICTURES } = process.env;
@@ -21,7 +22,7 @@ const browser = await puppeteer.launch({
 const festoon = (...words) => execFileSync(FESTOON, words, { encoding: "utf8", stdio: ["ignore", "pipe", "pipe"] });
 
 /* A page that is ready, with all that it asked for and complained of. */
-async function open(hash = "", { size = SIZES.wide, flat = false, reduced = false, counted = false } = {}) {
+async function open(hash = "", { size = SIZES.wide, flat = false, reduced = false, counted = false, languages = ["en"] } = {}) {
     const page = await browser.newPage();
     page.asked = [];
     page.complaints = [];
@@ -29,6 +30,7 @@ async function open(hash = "", { size = SIZES.wide, flat = false, reduced = fals
     page.on("request", (request) => page.asked.push(request.url()));
     page.on("pageerror", (error) => page.complaints.push(error.message));
     page.on("console", (message) => ["error", "warn"].includes(message.type()) && !/GL Driver|GPU stall|WebGL/.test(message.text()) && page.complaints.push(message.text()));
+    await page.evaluateOnNewDocument((list) => Object.defineProperty(navigator, "languages", { value: list }), languages);
     if (reduced)
         await page.emulateMediaFeatures([{ name: "prefers-reduced-motion", value: "reduce" }]);
     if (flat)
@@ -94,6 +96,40 @@ async function checkAxe(page, name) {
 }
 
 const noSidewaysScroll = async (page) => assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth), "no sideways scrolling");
+
+/* No word is cut off, and no two of the page's controls lie over each other. */
+async function nothingOverlaps(page, where) {
+    await noSidewaysScroll(page);
+    const bad = await page.evaluate(() => {
+        const shown = [...document.querySelectorAll("button, label, select, dt, dd, summary, legend, h1, h2, input, output")].filter((element) => element.checkVisibility() && !element.closest("#all-controls label"));
+        const name = (element) => `${element.id || element.tagName} "${element.textContent.slice(0, 40)}"`;
+        const cut = shown.filter((element) => element.tagName !== "INPUT" && element.scrollWidth > element.clientWidth + 1 && element.clientWidth > 0).map((element) => `cut: ${name(element)}`);
+        const inView = document.getElementById("view-box").getBoundingClientRect();
+        cut.push(...[...document.querySelectorAll("#legend span, #live")].filter((element) => element.getBoundingClientRect().left < inView.left + 8).map((element) => `cut: ${element.textContent}`));
+        const boxes = shown.map((element) => [element, element.getBoundingClientRect()]);
+        const over = boxes.flatMap(([a, p], i) => boxes.slice(i + 1).filter(([b, q]) => !a.contains(b) && !b.contains(a)
+            && Math.min(p.right, q.right) - Math.max(p.left, q.left) > 1 && Math.min(p.bottom, q.bottom) - Math.max(p.top, q.top) > 1).map(([b]) => `over: ${name(a)} and ${name(b)}`));
+        const pen = document.createElement("canvas").getContext("2d");
+        const chosen = [...document.querySelectorAll("select")].filter((select) => select.checkVisibility()).flatMap((select) => {
+            const style = getComputedStyle(select);
+            pen.font = `${style.fontSize} ${style.fontFamily}`;
+            return [...select.options].filter((option) => pen.measureText(option.text).width > select.clientWidth - 38).map((option) => `cut in its list: ${option.text}`);
+        });
+        return [...cut, ...over, ...chosen];
+    });
+    assert.deepEqual(bad, [], where);
+}
+
+/* The page as it is printed: what it says, and on how many sheets.  To the page it is a print like any other. */
+async function paper(page, name) {
+    await page.emulateMediaType("print");
+    const text = await page.evaluate(() => document.body.innerText);
+    if (PICTURES)
+        await page.screenshot({ path: join(PICTURES, `${name}.png`), fullPage: true });
+    await page.emulateMediaType(null);
+    const sheets = await page.pdf({ format: "A4", margin: { top: "12mm", bottom: "12mm", left: "14mm", right: "14mm" } });
+    return { pages: (Buffer.from(sheets).toString("latin1").match(/\/Type\s*\/Page\b/g) ?? []).length, text };
+}
 
 const tests = {
     async "golden hash, runs and a sweep in workers have the program's bits"() {
@@ -202,6 +238,92 @@ const tests = {
                 if (step < 6)
                     await click(page, "#lesson nav button:last-child");
             }
+            await close(page);
+        }
+    },
+    async "each language fills the page, from the address, the browser or the selector; its numbers come and go with a comma"() {
+        const words = { de: /^Gegenläufig: .* 3,\d\d? Umdrehungen/, fr: /^Contrarotative.: .* 3,\d\d? tours/, es: /^Contrarrotante: .* 3,\d\d? vueltas/, zh: /^反向绕行：.* 3\.\d\d? 圈/ };
+        for (const [language, regime] of Object.entries(words))
+            for (const [name, size] of Object.entries({ ...SIZES, wide: { width: 1280, height: 800 } })) {
+                const page = await open(`#v=1&drive.frequency=10.7+Hz&ui.settle=20&ui.lang=${language}`, { size });
+                await page.waitForFunction(() => document.querySelector("#numbers dd"), { timeout: 0 });
+                assert.match(await page.$eval("#regime", (text) => text.textContent), regime);
+                assert.equal((await page.evaluate(() => document.documentElement.lang)).slice(0, 2), language);
+                assert.equal(await page.$eval("#language", (select) => select.value), language);
+                await picture(page, `${name}-${language}`);
+                const comma = language === "zh" ? "." : ",";
+                await type(page, "#p-drive-frequency", `12${comma}5 Hz`);
+                assert.equal(await page.$eval("#p-drive-frequency", (field) => field.value), `12${comma}5 Hz`);
+                await type(page, "#p-magnet-depth", "17.25 mm");
+                assert.equal(await page.$eval("#p-magnet-depth", (field) => field.value), `17${comma}25 mm`);
+                assert.deepEqual(await page.evaluate(() => ["drive.frequency", "magnet.depth"].map((key) => window.festoonLab.core.value(key))), [12.5, 0.01725]);
+                assert.match(await page.evaluate(() => location.hash), /drive\.frequency=12\.5\+Hz&magnet\.depth=17\.25\+mm.*ui\.lang=/);
+                await nothingOverlaps(page, `${language} ${name}`);
+                for (const quantity of name === "narrow" ? await page.$$eval("#colour option", (options) => options.map(({ value }) => value)) : []) {
+                    await page.select("#colour", quantity);
+                    await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+                    await nothingOverlaps(page, `${language} ${name} ${quantity}`);
+                }
+                await page.$$eval("#all-controls summary", (all) => all.forEach((summary) => summary.click()));
+                await page.$$eval("button.more", (all) => all[0].click());
+                await nothingOverlaps(page, `${language} ${name}, all`);
+                await checkAxe(page, `${language} ${name}`);
+                await click(page, "#lesson-open");
+                for (let step = 1; step <= 6; ++step) {
+                    await click(page, "#lesson .answers button:last-child");
+                    await click(page, "#lesson .strong");
+                    await nothingOverlaps(page, `${language} ${name}, step ${step}`);
+                    await picture(page, `${name}-${language}-lesson-${step}`);
+                    if (step < 6)
+                        await click(page, "#lesson nav button:last-child");
+                }
+                await close(page);
+            }
+    },
+    async "the selector changes the words and nothing else: motion, answer, curve and controls stay"() {
+        const page = await open("", { languages: ["pt-BR", "fr-CA", "en"] });
+        assert.deepEqual(await page.evaluate(() => [document.documentElement.lang, document.getElementById("language").value, location.hash.includes("ui.lang")]), ["fr", "fr", false]);
+        await click(page, "#lesson-open");
+        await click(page, "#lesson .answers button:nth-child(2)");
+        await click(page, "#lesson .strong");
+        await click(page, "#tab-sweep");
+        await type(page, "#sweep-to", "12,5");
+        await page.$$eval("#all-controls summary", (all) => all[1].click());
+        const state = () => page.evaluate(() => {
+            const { lab } = window.festoonLab;
+            lab.play(false);
+            return [JSON.stringify(lab.scene), lab.row[1], lab.trail.count, lab.panels.plot, document.getElementById("sweep-to").value, lab.camera.mode, lab.settings.slow,
+                [...document.querySelectorAll("#lesson .answers button")].map((button) => button.getAttribute("aria-pressed")).join(), [...document.querySelectorAll("#all-controls details")].findIndex((group) => group.open),
+                document.querySelectorAll("#cameras button").length, document.querySelectorAll("#plot-tabs button").length, document.querySelectorAll("#files button").length, document.querySelectorAll("[id]").length - new Set([...document.querySelectorAll("[id]")].map(({ id }) => id)).size];
+        });
+        const before = await state();
+        await page.select("#language", "de");
+        assert.deepEqual(await state(), before);
+        assert.deepEqual(await page.evaluate(() => [document.documentElement.lang, document.title, document.querySelector("#lesson .bad").textContent, document.querySelector("#lesson .explain") !== null, document.getElementById("lesson-open").textContent]),
+            ["de", "festoon lab: eine magnetische Kugel auf einem Magnetrührer", "Sieh genau hin: Sie tut etwas anderes.", true, "Lektion schließen"]);
+        assert.match(await page.evaluate(() => location.hash), /ui\.lang=de/);
+        await click(page, "#sweep-go");
+        await page.waitForFunction(() => /^57 von 57 Punkten/.test(document.getElementById("sweep-done").textContent), { timeout: 0 });
+        assert.equal(await page.evaluate(() => Math.max(...[...window.festoonLab.lab.panels.points.values()].map((point) => point.frequency_hz))), 12.5);
+        await click(page, "#play");
+        assert.equal(await page.$eval("#play", (button) => button.textContent), "Anhalten");
+        await page.select("#language", "zh");
+        assert.equal(await page.$eval("#play", (button) => button.textContent), "暂停");
+        await close(page);
+    },
+    async "the worksheet: the lesson on paper in the language of the page, with lines and a table, and no answer"() {
+        for (const language of Object.keys(TABLES)) {
+            const page = await open(`#v=1&ui.step=2&ui.lang=${language}`);
+            await page.evaluate(() => (window.print = () => (window.printed = true)));
+            await click(page, "#worksheet-open");
+            assert.ok(await page.evaluate(() => window.printed));
+            const { pages, text } = await paper(page, `worksheet-${language}`);
+            const steps = await page.$$eval("#worksheet section", (sections) => sections.length), empty = await page.$$eval("#worksheet td", (cells) => cells.filter((cell) => !cell.textContent).length);
+            assert.deepEqual([steps, empty, pages], [7, 21, 3], language);
+            assert.ok(text.includes(["de", "fr", "es"].includes(language) ? "10,7\t" : "10.7\t"), "a row of the table");
+            for (const { question, answers, observe, explain } of TABLES[language].lesson)
+                assert.deepEqual([question, ...answers, observe, explain].map((part) => text.includes(part)), [true, true, true, true, false, false], question);
+            assert.deepEqual(await page.evaluate(() => ["worksheet", "stage"].map((id) => document.getElementById(id).checkVisibility())), [false, true], "the screen as before");
             await close(page);
         }
     },
