@@ -4,6 +4,7 @@ import { element, sentence } from "./controls.js";
 import { COLUMN } from "./core.js";
 import { readScene, readTrack, writeScene } from "./state.js";
 import { say, T } from "./texts.js";
+import { readTrajectory } from "./trajectory.js";
 
 const LONGEST_FILE = 20e6, DEGREES = 180 / Math.PI;
 
@@ -99,14 +100,15 @@ export class Files {
             if (file.size > LONGEST_FILE)
                 throw new Error(T.bad.large);
             const text = await file.text();
-            if (/\.(ya?ml)$/i.test(file.name)) {
-                const scene = readScene(text), view = { ...lab.viewWords(), "ui.ramp": "0", "ui.settle": "0" }; /* a scene begins at its own start */
+            const trajectory = readTrajectory(text);
+            if (trajectory || /\.(ya?ml)$/i.test(file.name)) {
+                const scene = trajectory?.scene ?? readScene(text), view = { ...lab.viewWords(), "ui.ramp": "0", "ui.settle": "0" }; /* a scene begins at its own start */
                 let wrong = null;
                 lab.replace(() => {
                     lab.lesson.close();
-                    wrong = lab.open({ scene, view });
+                    wrong = lab.open({ scene, view }, trajectory);
                 });
-                lab.tell(wrong ? say(T.pair, { name, value: wrong }) : say(T.opened, { name }), Boolean(wrong));
+                lab.tell(wrong ? say(T.pair, { name, value: wrong }) : say(trajectory ? T.replayed : T.opened, { name }), Boolean(wrong));
             } else {
                 this.showTrack(readTrack(text));
             }

@@ -14,6 +14,7 @@ import { PRESETS } from "./scenes.js";
 import { readAddress, takeGood, writeAddress } from "./state.js";
 import { languageOf, say, speak, T } from "./texts.js";
 import { QUANTITIES, SPACING, Trail, unitsOf } from "./trail.js";
+import { recordingOf } from "./trajectory.js";
 import { View2D } from "./view2d.js";
 import { View3D } from "./view3d.js";
 
@@ -169,6 +170,17 @@ class Lab {
             return sentence(error);
         }
         this.scene = { ...scene };
+        this.replayed = null;
+        return null;
+    }
+
+    /* The samples of a trajectory of this scene take the place of what would be computed, until the scene changes. */
+    takeTrajectory(trajectory) {
+        try {
+            this.replayed = recordingOf(trajectory, this.core);
+        } catch (error) {
+            return sentence(error);
+        }
         return null;
     }
 
@@ -216,7 +228,7 @@ class Lab {
             this.pace.reset();
             this.left = STOP.TIME;
             this.tell("");
-            if (this.core.isRecorded()) {
+            if (this.replayed || this.core.isRecorded()) {
                 this.beginRecording();
                 return;
             }
@@ -252,13 +264,21 @@ class Lab {
     /* The first sample is computed here, the others come from a worker. */
     beginRecording() {
         const recording = (this.recording = new Recording());
-        this.core.record((rows) => {
-            recording.add([Float64Array.from(rows)]);
-            return true;
-        });
+        if (this.replayed)
+            recording.add(this.replayed);
+        else
+            this.core.record((rows) => {
+                recording.add([Float64Array.from(rows)]);
+                return true;
+            });
         this.takeRows(recording.rows(0).map((row) => row.slice()));
         this.clearTrails();
         this.furnish();
+        this.wake();
+        if (this.replayed) {
+            recording.done = true;
+            return;
+        }
         let first = true;
         this.pool.record({ ...this.scene }, (samples) => {
             recording.add(first ? samples.slice(1) : samples);
@@ -269,7 +289,6 @@ class Lab {
         }).finally(() => {
             recording.done = true;
         });
-        this.wake();
     }
 
     /* Go on by what is recorded.  Returns the seconds that are done. */
@@ -467,9 +486,9 @@ class Lab {
         this.panels.showView();
     }
 
-    /* A whole state: scene and view. */
-    open({ scene, view }) {
-        const wrong = this.takeScene(scene);
+    /* A whole state: scene and view, and perhaps a trajectory of the scene to be played. */
+    open({ scene, view }, trajectory = null) {
+        const wrong = this.takeScene(scene) ?? (trajectory && this.takeTrajectory(trajectory));
         this.takeView(view);
         this.begin();
         if (wrong)

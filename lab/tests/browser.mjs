@@ -424,6 +424,37 @@ const tests = {
         assert.equal(await page.evaluate(() => window.festoonLab.core.value("drive.frequency")), 16);
         await close(page);
     },
+    async "a dropped trajectory is played as it was recorded, in its own scene; a change computes anew"() {
+        const page = await open(), drop = (name, text) => page.evaluate((n, t) => window.festoonLab.lab.files.open(new File([t], n)), name, text);
+        const csv = (...sets) => {
+            const file = join(scratch, "played.csv");
+            festoon("run", ...sets.flatMap((set) => ["--set", set]), "--units", "lab", "--csv", file);
+            return readFileSync(file, "utf8");
+        };
+        const state = () => page.evaluate(() => {
+            const { lab } = window.festoonLab;
+            return { rows: lab.rows.length, time: lab.row[0], x: lab.row[3], radius: lab.units.mm, samples: lab.recording?.samples.length ?? 0, f: window.festoonLab.core.value("drive.frequency") };
+        });
+        const single = csv("drive.frequency=14.5Hz", "run.periods=6", "run.discard=1"), lines = single.trim().split("\n").filter((line) => !line.startsWith("#")).map((line) => line.split(","));
+        await drop("mine.csv", single);
+        assert.match(await page.$eval("#notice", (notice) => notice.textContent), /^mine\.csv is played as it was recorded/);
+        await page.evaluate(() => window.festoonLab.lab.play(false));
+        assert.deepEqual([(await state()).samples, (await state()).f], [lines.length - 1, 14.5]);
+        await click(page, "#restart");
+        await page.evaluate(() => window.festoonLab.lab.advance(100));
+        const place = (name) => lines[0].findIndex((head) => head.split(" ")[0] === name), last = lines.at(-1), end = await state();
+        assert.ok(Math.abs(end.time - Number(last[0])) < 1e-12 && Math.abs(end.x * end.radius - Number(last[place("x")])) < 1e-9, JSON.stringify(end));
+        assert.ok(await coloursOfView(page) > 12);
+        await picture(page, "wide-played");
+        await described(page);
+        await type(page, "#p-drive-frequency", "15 Hz");
+        assert.deepEqual(await page.evaluate(() => [window.festoonLab.lab.recording, window.festoonLab.lab.row[0]]), [null, 0]);
+        await drop("two.csv", csv("drive.frequency=30Hz", "beads[0].start.phi=3deg", "beads[1].start.phi=40deg", "run.periods=6", "run.discard=1"));
+        assert.equal((await state()).rows, 2);
+        await drop("<b>bad</b>.csv", single.replace("14.5 Hz", "14.5 furlong"));
+        assert.match(await page.$eval("#notice", (notice) => notice.textContent), /^<b>bad<\/b>\.csv: drive\.frequency/);
+        await close(page);
+    },
     async "keys: play, step, cameras, lesson, and the view by arrows"() {
         const page = await open();
         await page.evaluate(() => document.activeElement.blur());

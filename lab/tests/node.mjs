@@ -14,6 +14,7 @@ import { factorTold, Pace } from "../src/pace.js";
 import { ticks } from "../src/plots.js";
 import { coarseFirst, Pool } from "../src/pool.js";
 import { Recording } from "../src/recording.js";
+import { readTrajectory, recordingOf } from "../src/trajectory.js";
 import { readAddress, readScene, readTrack, takeGood, writeAddress, writeScene } from "../src/state.js";
 import { regimeSentence } from "../src/panels.js";
 import { LESSON, PRESETS } from "../src/scenes.js";
@@ -452,6 +453,54 @@ const library = {
         }
         assert.throws(() => core.setScene({ ...pair, "beads[1].start.phi": "4 deg" }), /overlap|beads/);
         core.reset();
+    },
+    "a trajectory of festoon run is played as it was recorded, in the units that it has: states, field, loads and contacts"() {
+        const csv = join(scratch, "played.csv"), near = (mine, theirs, where, most = 1e-8) => assert.ok(Math.abs(mine - theirs) < most * (1 + Math.abs(theirs)), `${where}: ${mine}, ${theirs}`);
+        const played = (scene, units) => {
+            festoon("run", ...sets(scene), "--units", units, "--csv", csv);
+            const file = readTrajectory(readFileSync(csv, "utf8"));
+            core.setScene(file.scene);
+            return recordingOf(file, core);
+        };
+        const single = { "drive.frequency": "10.7 Hz", "run.periods": 5, "run.discard": 1 };
+        for (const units of ["scaled", "lab", "si"])
+            for (const scene of [single, { ...single, "friction.law": "coulomb" }]) {
+                const rows = played(scene, units);
+                assert.equal(rows.length, 5 * 64 + 1);
+                core.setScene(scene);
+                let own = core.start();
+                const most = scene["friction.law"] ? 1e-6 : 1e-8; // the steps of this motion end elsewhere, and so where it slips
+                rows.forEach((row, i) => {
+                    if (i > 0)
+                        own = core.go(1 / 64 / 10.7, 1).rows;
+                    for (const name of ["time", "turns", "omega", "x", "y", "r", "phi", "alpha", "field", "slipSize", "spin", "load", "friction", "use", "sticks", "speed", "z", "magnet"])
+                        near(row[COLUMN[name]], own[COLUMN[name]], `${scene["friction.law"]}, ${units}, row ${i}: ${name}`, most);
+                    for (const name of ["n", "b", "nLocal"])
+                        [0, 1, 2].forEach((k) => near(row[COLUMN[name] + k], own[COLUMN[name] + k], `${units}, row ${i}: ${name} ${k}`, most));
+                });
+            }
+        const pair = { "drive.frequency": "30 Hz", "beads[0].start.phi": "3 deg", "beads[1].start.phi": "53 deg", "run.periods": 4, "run.discard": 1 };
+        const bowl = { "plate.shape": "bowl", "plate.bowl_radius": "150 mm", "run.periods": 4, "run.discard": 1 };
+        for (const [scene, units] of [[pair, "scaled"], [pair, "lab"], [bowl, "si"]]) {
+            const rows = played(scene, units), own = [];
+            core.record((row) => own.push(Array.from(row)) === 0);
+            assert.equal(rows.length, own.length);
+            rows.forEach((row, i) => row.forEach((value, k) => near(value, own[i][k], `${units}, row ${i}, column ${k}`, k === COLUMN.angle ? 1e-7 : 1e-8))); // acos of nearly 1
+        }
+        const text = readFileSync(csv, "utf8"), refused = (change, why) => assert.throws(() => {
+            const file = readTrajectory(change(text));
+            core.setScene(file.scene);
+            recordingOf(file, core);
+        }, why);
+        const cell = (value) => (whole) => whole.replace(/^0,[^,]*/m, `0,${value}`), line = text.split("\n").findIndex((row) => row.startsWith("0,")) + 1;
+        refused(cell("nan"), new RegExp(`line ${line}: drive_turns`));
+        refused(cell("<b>"), /drive_turns must be a number/);
+        refused((whole) => whole.replace("nY_0 [1]", "nY_0 [furlong]"), /no column nY_0/);
+        refused((whole) => whole.replace(/^0,/m, "9,"), new RegExp(`line ${line + 1}: the time`));
+        refused((whole) => whole.split("\n").slice(0, line).join("\n"), /three places/);
+        refused((whole) => whole.replace("shape: bowl", "shape: bowll"), /bowl/);
+        assert.equal(readTrajectory("frame,t [s],x [mm],y [mm]\n"), null);
+        core.setScene({});
     },
     "the points of a grid are those of a sweep"() {
         const base = { "run.periods": 20, "run.discard": 10 }, axis = "drive.frequency=9:20:4", file = join(scratch, "sweep.db");

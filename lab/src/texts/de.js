@@ -46,7 +46,7 @@ export default {
     parameters: "Alle Größen", main: "Wichtigste Größen",
     view: "Ansicht", files: "Speichern und Öffnen",
     saveCsv: "Bewegung (CSV)", savePng: "Bild (PNG)", saveFilm: "Film aufnehmen (WebM)", stopFilm: "Aufnahme beenden", saveScene: "Szene (YAML)",
-    open: "Szene oder Messspur öffnen", openHelp: "Oder eine Datei irgendwo auf die Seite ziehen. Eine gemessene Spur wird weiß über das Modell gezeichnet.",
+    open: "Szene oder Messspur öffnen", openHelp: "Oder eine Datei irgendwo auf die Seite ziehen. Eine gemessene Spur wird weiß über das Modell gezeichnet, eine Trajektorie von festoon run (CSV) abgespielt.",
     copy: "Link kopieren", copied: "Der Link ist in der Zwischenablage.", copyFailed: "Der Link steht in der Adresszeile.",
     trackShown: "{n} Orte der Messspur sind weiß gezeichnet, um den Mittelpunkt ihres am besten passenden Kreises.",
     trackInPixels: "Sie ist in Pixeln angegeben; deshalb wurde ihre Größe der Spur des Modells angepasst.",
@@ -54,7 +54,9 @@ export default {
     restTaken: "Alles andere aus der Adresse ist eingestellt.",
     noMemory: "Der Browser gibt dieser Seite keinen Speicher mehr. Bitte andere Seiten schließen und diese neu laden.",
     opened: "{name} ist geöffnet.",
+    replayed: "{name} wird so abgespielt, wie es aufgezeichnet wurde. Wer eine Größe ändert, lässt die Bewegung neu berechnen.",
     bad: {
+        missing: "die Trajektorie hat keine Spalte {name} in einer hier bekannten Einheit", cell: "Zeile {line}: {name} muss eine Zahl sein", time: "Zeile {line}: die Zeit muss von Zeile zu Zeile wachsen",
         large: "die Datei ist größer als 20 MB", twice: "Zeile {line}: {key} steht zweimal da", row: "Zeile {line}: erwartet wird „Schlüssel: Wert“, wie festoon init es schreibt",
         columns: "Zeile {line}: erwartet werden Spalten mit den Namen x und y, zum Beispiel: frame,t [s],x [mm],y [mm]", unit: "Zeile {line}: „{unit}“ muss mm, cm, m oder px sein",
         number: "Zeile {line}: x und y müssen Zahlen unter {most} sein", few: "eine Messspur braucht mindestens drei Orte", same: "alle Orte der Messspur sind gleich",
@@ -131,6 +133,7 @@ export default {
         ejected: "Hinausgeworfen: Eine Kugel verlässt die Platte.",
         undecided: "Unentschieden: Die Bewegung der Kugeln hat sich nicht eingespielt; ein längerer Lauf zeigt vielleicht, was sie ist.",
     },
+    beside: { open: "Nebeneinander", left: "Die linke Szene", right: "Die rechte Szene", restart: "Beide neu starten", close: "Zurück zu einer Szene" },
     worksheet: {
         open: "Arbeitsblatt drucken", title: "Arbeitsblatt: eine magnetische Kugel auf einem Magnetrührer", name: "Name", group: "Klasse", date: "Datum",
         intro: "Öffne die Seite, wähle „Lektion“ und gehe ihre sechs Schritte durch. Kreuze an, was du erwartest, bevor sich etwas bewegt. Schreibe dann auf, was du siehst und wie du es dir erklärst, bevor du die Begründung auf der Seite liest.",

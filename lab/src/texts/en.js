@@ -47,7 +47,7 @@ export default {
     parameters: "All parameters", main: "Main controls",
     view: "View", files: "Save and open",
     saveCsv: "Motion (CSV)", savePng: "Picture (PNG)", saveFilm: "Record film (webm)", stopFilm: "Stop recording", saveScene: "Scene (YAML)",
-    open: "Open a scene or a track", openHelp: "Or drop a file anywhere on the page. A track is drawn in white over the model.",
+    open: "Open a scene or a track", openHelp: "Or drop a file anywhere on the page. A track is drawn in white over the model, a trajectory of festoon run (CSV) is played.",
     copy: "Copy the link", copied: "The link is in the clipboard.", copyFailed: "The link is in the address line.",
     trackShown: "{n} places of the track are drawn in white, about the centre of their best circle.",
     trackInPixels: "It is in pixels, so its size was matched to the model's trail.",
@@ -55,7 +55,9 @@ export default {
     restTaken: "All else that the address says is set.",
     noMemory: "The browser gives this page no more memory. Close other pages, then load this one again.",
     opened: "{name} is open.",
+    replayed: "{name} is played as it was recorded. A change of a parameter computes the motion anew.",
     bad: {
+        missing: "the trajectory has no column {name} in a unit that is known here", cell: "line {line}: {name} must be a number", time: "line {line}: the time must grow from line to line",
         large: "the file is larger than 20 MB", twice: "line {line}: {key} is given twice", row: "line {line}: expected \"key: value\", as festoon init writes it",
         columns: "line {line}: expected columns named x and y, as in: frame,t [s],x [mm],y [mm]", unit: "line {line}: \"{unit}\" must be mm, cm, m or px",
         number: "line {line}: x and y must be numbers below {most}", few: "a track needs three places at least", same: "all places of the track are the same",
@@ -134,6 +136,7 @@ export default {
         ejected: "Ejected: a bead leaves the plate.",
         undecided: "Undecided: the motion of the beads has not settled; a longer run may show what it is.",
     },
+    beside: { open: "Side by side", left: "The scene on the left", right: "The scene on the right", restart: "Restart both", close: "Back to one scene" },
     worksheet: {
         open: "Worksheet to print", title: "Worksheet: a magnetic bead on a magnetic stirrer", name: "Name", group: "Class", date: "Date",
         intro: "Open the page, press “Lesson” and go through its six steps. Tick what you expect before anything moves. Then write down what you see, and why you think it is so, before you read the reason on the page.",

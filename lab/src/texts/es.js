@@ -46,7 +46,7 @@ export default {
     parameters: "Todos los parámetros", main: "Controles principales",
     view: "Vista", files: "Guardar y abrir",
     saveCsv: "Movimiento (CSV)", savePng: "Imagen (PNG)", saveFilm: "Grabar vídeo (WebM)", stopFilm: "Parar la grabación", saveScene: "Escena (YAML)",
-    open: "Abrir una escena o una trayectoria", openHelp: "O suelta un archivo en cualquier lugar de la página. Una trayectoria medida se dibuja en blanco sobre el modelo.",
+    open: "Abrir una escena o una trayectoria", openHelp: "O suelta un archivo en cualquier lugar de la página. Una trayectoria medida se dibuja en blanco sobre el modelo; un archivo CSV de festoon run se reproduce.",
     copy: "Copiar el enlace", copied: "El enlace está en el portapapeles.", copyFailed: "El enlace está en la barra de direcciones.",
     trackShown: "{n} puntos de la trayectoria están dibujados en blanco, en torno al centro del círculo que mejor se les ajusta.",
     trackInPixels: "Está en píxeles, así que su tamaño se ha ajustado al rastro del modelo.",
@@ -54,7 +54,9 @@ export default {
     restTaken: "Todo lo demás que dice la dirección está ajustado.",
     noMemory: "El navegador no da más memoria a esta página. Cierra otras páginas y vuelve a cargar esta.",
     opened: "{name} está abierto.",
+    replayed: "{name} se reproduce tal como se grabó. Si cambias un parámetro, el movimiento se calcula de nuevo.",
     bad: {
+        missing: "la trayectoria no tiene una columna {name} en una unidad conocida aquí", cell: "línea {line}: {name} debe ser un número", time: "línea {line}: el tiempo debe crecer de una línea a otra",
         large: "el archivo ocupa más de 20 MB", twice: "línea {line}: {key} aparece dos veces", row: "línea {line}: se esperaba «clave: valor», como lo escribe festoon init",
         columns: "línea {line}: se esperaban columnas con los nombres x e y, como en: frame,t [s],x [mm],y [mm]", unit: "línea {line}: «{unit}» debe ser mm, cm, m o px",
         number: "línea {line}: x e y deben ser números menores que {most}", few: "una trayectoria necesita al menos tres puntos", same: "todos los puntos de la trayectoria son iguales",
@@ -131,6 +133,7 @@ export default {
         ejected: "Expulsada: una bola sale de la placa.",
         undecided: "Sin decidir: el movimiento de las bolas no se ha estabilizado; un ensayo más largo quizá muestre cuál es.",
     },
+    beside: { open: "Lado a lado", left: "La escena de la izquierda", right: "La escena de la derecha", restart: "Reiniciar ambas", close: "Volver a una escena" },
     worksheet: {
         open: "Imprimir la hoja de trabajo", title: "Hoja de trabajo: una bola magnética sobre un agitador magnético", name: "Nombre", group: "Curso", date: "Fecha",
         intro: "Abre la página, elige «Lección» y sigue sus seis pasos. Marca lo que esperas antes de que nada se mueva. Después escribe lo que ves y cómo te lo explicas, antes de leer la explicación en la página.",

@@ -50,7 +50,7 @@ export default typeset({
     parameters: "Tous les paramètres", main: "Réglages principaux",
     view: "Vue", files: "Enregistrer et ouvrir",
     saveCsv: "Mouvement (CSV)", savePng: "Image (PNG)", saveFilm: "Filmer (WebM)", stopFilm: "Arrêter le film", saveScene: "Scène (YAML)",
-    open: "Ouvrir une scène ou une trajectoire", openHelp: "Ou déposez un fichier n’importe où sur la page. Une trajectoire mesurée est tracée en blanc par-dessus le modèle.",
+    open: "Ouvrir une scène ou une trajectoire", openHelp: "Ou déposez un fichier n’importe où sur la page. Une trajectoire mesurée est tracée en blanc par-dessus le modèle, un fichier CSV de festoon run est rejoué.",
     copy: "Copier le lien", copied: "Le lien est dans le presse-papiers.", copyFailed: "Le lien est dans la barre d’adresse.",
     trackShown: "{n} points de la trajectoire sont tracés en blanc, autour du centre du cercle qui leur convient le mieux.",
     trackInPixels: "Elle est en pixels : sa taille a donc été ajustée à la trace du modèle.",
@@ -58,7 +58,9 @@ export default typeset({
     restTaken: "Tout le reste de l’adresse est pris en compte.",
     noMemory: "Le navigateur ne donne plus de mémoire à cette page. Fermez d’autres pages, puis rechargez celle-ci.",
     opened: "{name} est ouvert.",
+    replayed: "{name} est rejoué tel qu’il a été enregistré. Si vous changez un paramètre, le mouvement est recalculé.",
     bad: {
+        missing: "la trajectoire n’a pas de colonne {name} dans une unité connue ici", cell: "ligne {line} : {name} doit être un nombre", time: "ligne {line} : le temps doit croître d’une ligne à l’autre",
         large: "le fichier dépasse 20 Mo", twice: "ligne {line} : {key} est donné deux fois", row: "ligne {line} : il faut « clé: valeur », comme l’écrit festoon init",
         columns: "ligne {line} : il faut des colonnes nommées x et y, comme dans : frame,t [s],x [mm],y [mm]", unit: "ligne {line} : « {unit} » doit être mm, cm, m ou px",
         number: "ligne {line} : x et y doivent être des nombres inférieurs à {most}", few: "une trajectoire doit avoir au moins trois points", same: "tous les points de la trajectoire sont les mêmes",
@@ -135,6 +137,7 @@ export default typeset({
         ejected: "Éjectée : une bille quitte la plaque.",
         undecided: "Indécis : le mouvement des billes n’est pas établi ; un essai plus long montrera peut-être ce qu’il est.",
     },
+    beside: { open: "Côte à côte", left: "La scène de gauche", right: "La scène de droite", restart: "Recommencer les deux", close: "Revenir à une seule scène" },
     worksheet: {
         open: "Imprimer la fiche de travail", title: "Fiche de travail : une bille magnétique sur un agitateur magnétique", name: "Nom", group: "Classe", date: "Date",
         intro: "Ouvrez la page, choisissez « Leçon » et suivez ses six étapes. Cochez ce que vous prévoyez avant que rien ne bouge. Notez ensuite ce que vous voyez et comment vous l’expliquez, avant de lire l’explication sur la page.",

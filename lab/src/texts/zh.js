@@ -46,7 +46,7 @@ export default {
     parameters: "全部参数", main: "主要参数",
     view: "视图", files: "保存与打开",
     saveCsv: "运动数据（CSV）", savePng: "图片（PNG）", saveFilm: "录制视频（WebM）", stopFilm: "停止录制", saveScene: "场景（YAML）",
-    open: "打开场景或轨迹", openHelp: "也可以把文件拖到页面的任意位置。实测轨迹以白色画在模型之上。",
+    open: "打开场景或轨迹", openHelp: "也可以把文件拖到页面的任意位置。实测轨迹以白色画在模型之上；festoon run 的 CSV 文件则会播放。",
     copy: "复制链接", copied: "链接已在剪贴板中。", copyFailed: "链接在地址栏中。",
     trackShown: "已用白色画出轨迹的 {n} 个位置，以最佳拟合圆的圆心为中心。",
     trackInPixels: "轨迹以像素为单位，其大小已按模型的轨迹调整。",
@@ -54,7 +54,9 @@ export default {
     restTaken: "地址中的其他内容均已设定。",
     noMemory: "浏览器不再给本页分配内存。请关闭其他页面，然后重新载入本页。",
     opened: "{name} 已打开。",
+    replayed: "正在按记录播放 {name}。改变任何参数都会重新计算运动。",
     bad: {
+        missing: "轨迹文件中没有以已知单位给出的 {name} 列", cell: "第 {line} 行：{name} 必须是数", time: "第 {line} 行：时间必须逐行增大",
         large: "文件大于 20 MB", twice: "第 {line} 行：{key} 出现了两次", row: "第 {line} 行：应为“键: 值”，如 festoon init 所写",
         columns: "第 {line} 行：应有名为 x 和 y 的列，例如：frame,t [s],x [mm],y [mm]", unit: "第 {line} 行：“{unit}”必须是 mm、cm、m 或 px",
         number: "第 {line} 行：x 和 y 必须是小于 {most} 的数", few: "轨迹至少需要三个位置", same: "轨迹的所有位置都相同",
@@ -131,6 +133,7 @@ export default {
         ejected: "甩出：有小球离开平板。",
         undecided: "未定：小球的运动尚未稳定；更长的运行也许能看出是什么运动。",
     },
+    beside: { open: "并排比较", left: "左边的场景", right: "右边的场景", restart: "两边重新开始", close: "回到单个场景" },
     worksheet: {
         open: "打印学习单", title: "学习单：磁力搅拌器上的磁性小球", name: "姓名", group: "班级", date: "日期",
         intro: "打开页面，按“课程”，依次完成六个步骤。在小球运动之前，先勾选你的预测；然后写下你看到了什么、你怎样解释，最后再读页面上的解释。",
