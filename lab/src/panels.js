@@ -1,4 +1,5 @@
 /* panels.js - what stands around the view: transport, cameras, presets, plots, numbers. */
+import { isOneOfTwo, openBeside } from "./beside.js";
 import { CAMERAS } from "./camera.js";
 import { ARROWS, BEADS } from "./colours.js";
 import { element, sentence } from "./controls.js";
@@ -167,7 +168,14 @@ export class Panels {
             return box;
         });
         $("view-controls").replaceChildren(element("div", { class: "row" }, element("label", { for: "colour" }, T.colour), this.colour),
-            element("div", { class: "row" }, element("label", { for: "turns" }, T.trailTurns), this.turns), arrows);
+            element("div", { class: "row" }, element("label", { for: "turns" }, T.trailTurns), this.turns), arrows,
+            ...(isOneOfTwo() ? [] : [this.besideButton()]));
+    }
+
+    besideButton() {
+        const button = element("button", { type: "button", id: "beside-open" }, T.beside.open);
+        button.addEventListener("click", () => openBeside(this.lab).catch((error) => this.lab.tell(sentence(error), true)));
+        return button;
     }
 
     chooseCamera(name) {
@@ -307,7 +315,7 @@ export class Panels {
         const text = lab.ramping ? say(T.rampOn, { f: shown(lab.frequency().toFixed(2)) }) : `${digits(lab.frequency(), 4)} Hz`;
         const rings = lab.core.get("plate.shape") === "none" || lab.core.get("drive.waveform") === "wave" ? "" : ` · ${T.ring}`;
         $("live").textContent = `${text} · ${say(T.live, { turns: shown(row[COLUMN.turns].toFixed(1)), seconds: shown(row[COLUMN.time].toFixed(2)) })}${rings}`;
-        const quantity = QUANTITIES[lab.settings.colour], range = lab.trail.count > 1 ? lab.range : [NaN, NaN];
+        const quantity = QUANTITIES[lab.settings.colour], range = lab.trail.count > 1 && lab.range ? lab.range : [NaN, NaN]; // none before the first picture
         const named = typeof quantity.unit === "function" ? quantity.unit(lab.units) : quantity.unit, unit = T.units[named] ?? named;
         const words = `${lab.rows.length} ${lab.settings.colour} ${range.map((v) => digits(v, 3)).join(" ")} ${[...lab.settings.arrows]}`;
         if (words === this.legend)

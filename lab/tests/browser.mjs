@@ -455,6 +455,34 @@ const tests = {
         assert.match(await page.$eval("#notice", (notice) => notice.textContent), /^<b>bad<\/b>\.csv: drive\.frequency/);
         await close(page);
     },
+    async "two scenes side by side: each its own, both begun together, and back to the left one"() {
+        for (const [name, size] of Object.entries({ wide: { width: 1280, height: 800 }, narrow: SIZES.narrow })) {
+            const page = await open("#v=1&drive.frequency=12.5+Hz&ui.camera=above&ui.lang=de", { size });
+            await click(page, "#beside-open");
+            await page.waitForFunction(() => window.frames.length === 2 && [0, 1].every((i) => window.frames[i].festoonLab?.lab?.playing && window.frames[i].festoonLab.lab.language === "de"), { timeout: 0 });
+            const states = () => page.evaluate(() => [0, 1].map((i) => {
+                const { lab, core } = window.frames[i].festoonLab;
+                return [core.value("drive.frequency"), lab.camera.mode, lab.language, Boolean(window.frames[i].document.getElementById("beside-open"))];
+            }));
+            assert.deepEqual(await states(), [[12.5, "above", "de", false], [12.5, "above", "de", false]]);
+            assert.equal(await page.evaluate(() => window.festoonLab.lab.playing), false, "the page behind them rests");
+            const [left, right] = page.frames().filter((frame) => frame !== page.mainFrame());
+            await type(right, "#p-friction-law", "coulomb");
+            await type(left, "#p-drive-frequency", "13,5 Hz");
+            assert.deepEqual(await page.evaluate(() => [0, 1].map((i) => [window.frames[i].festoonLab.core.value("drive.frequency"), window.frames[i].festoonLab.core.get("friction.law")])), [[13.5, "viscous"], [12.5, "coulomb"]]);
+            assert.deepEqual(await page.evaluate(() => {
+                document.getElementById("beside-restart").click();
+                return new Promise((resolve) => setTimeout(() => resolve([0, 1].map((i) => window.frames[i].festoonLab.lab.row[1] < 1))));
+            }), [true, true]);
+            await page.waitForFunction(() => [0, 1].every((i) => window.frames[i].festoonLab.lab.trail.count > 20), { timeout: 0 });
+            await noSidewaysScroll(page);
+            await picture(page, `${name}-beside`);
+            await click(page, "#beside-close");
+            await page.waitForFunction(() => window.festoonLab.lab.playing, { timeout: 0 });
+            assert.deepEqual(await page.evaluate(() => [window.frames.length, window.festoonLab.core.value("drive.frequency"), window.festoonLab.core.get("friction.law")]), [0, 13.5, "viscous"]);
+            await close(page);
+        }
+    },
     async "keys: play, step, cameras, lesson, and the view by arrows"() {
         const page = await open();
         await page.evaluate(() => document.activeElement.blur());
