@@ -3,7 +3,9 @@ import { CAMERAS, Camera } from "./camera.js";
 import { ARROWS, BEADS, NORTH, SOUTH } from "./colours.js";
 import { Controls, element, sentence } from "./controls.js";
 import { COLUMN, COLUMNS, Core, STOP } from "./core.js";
+import { listenDrags } from "./drag.js";
 import { Files } from "./files.js";
+import { listenKeys } from "./keys.js";
 import { Lesson } from "./lesson.js";
 import { bodiesOf, hullOf } from "./magnet.js";
 import { Pace } from "./pace.js";
@@ -47,8 +49,10 @@ class Lab {
 
     openView() {
         const solid = $("view"), plain = solid.cloneNode();
-        for (const canvas of [solid, plain])
+        for (const canvas of [solid, plain]) {
+            listenDrags(canvas, this);
             this.camera.listen(canvas, () => this.wake());
+        }
         try {
             const deep = (this.deep = new View3D(solid, ROOM)); /* kept: off the page, its canvas would be collected as garbage */
             solid.addEventListener("webglcontextlost", () => {
@@ -102,7 +106,7 @@ class Lab {
         this.groups = groups;
         const north = Math.sign(core.field(1, 0)[2]) || 1, waveform = core.get("drive.waveform"), wave = waveform === "wave";
         const real = core.get("magnet.shape") === "parts", radii = this.recording ? core.radii() : [groups.eps];
-        const bodies = real || !wave ? bodiesOf(groups, north, core.parts(), core.value("magnet.depth"), real) : [];
+        const bodies = this.bodies = real || !wave ? bodiesOf(groups, north, core.parts(), core.value("magnet.depth"), real) : [];
         const field = Math.hypot(...(this.recording ? this.row.subarray(COLUMN.b, COLUMN.b + 3) : magnetic)) || 1;
         this.view.furnish({
             eps: groups.eps, radii, plate: core.get("plate.shape"), bowl: core.value("plate.bowl_radius") / l,
@@ -197,12 +201,19 @@ class Lab {
                 delete scene[info.otherForm];
             scene[key] = text;
         }
+        return this.changeTo(scene, key);
+    }
+
+    /* Another scene, which differs by one key, or by the places of a magnet's parts; the motion goes on where it can. */
+    changeTo(scene, key) {
         const wrong = this.takeScene(scene);
         if (wrong)
             return wrong;
         this.controls.texts = this.scene;
         if (key === "drive.frequency" || key === "drive.omega")
             this.settings.ramp = null;
+        if (key === "magnet.shape")
+            this.panels.showView();
         if (key.startsWith("start.") || this.recording || this.core.isRecorded())
             this.begin();
         else
@@ -275,10 +286,9 @@ class Lab {
         this.clearTrails();
         this.furnish();
         this.wake();
-        if (this.replayed) {
-            recording.done = true;
+        recording.done = this.replayed !== null;
+        if (recording.done)
             return;
-        }
         let first = true;
         this.pool.record({ ...this.scene }, (samples) => {
             recording.add(first ? samples.slice(1) : samples);
@@ -545,30 +555,6 @@ class Lab {
         this.open({ scene: preset.scene, view: { "ui.settle": String(preset.settle ?? 0), ...preset.view } });
         this.play(true);
     }
-
-    listenKeys() {
-        document.addEventListener("keydown", (event) => {
-            const tag = event.target.tagName;
-            if (event.ctrlKey || event.metaKey || event.altKey || ["SELECT", "TEXTAREA"].includes(tag) || (tag === "INPUT" && event.target.type !== "range"))
-                return;
-            const camera = CAMERAS[Number(event.key) - 1];
-            if (event.key === " " && !["BUTTON", "SUMMARY"].includes(tag))
-                this.play(!this.playing);
-            else if (event.key === ".")
-                this.step();
-            else if (event.key.toLowerCase() === "r")
-                this.restart();
-            else if (camera)
-                this.panels.chooseCamera(camera);
-            else if (event.key === "5")
-                this.lesson.toggle();
-            else if (event.key.toLowerCase() === "f")
-                this.panels.fillScreen();
-            else
-                return;
-            event.preventDefault();
-        });
-    }
 }
 
 async function begin() {
@@ -601,7 +587,7 @@ async function begin() {
     lab.openAddress();
     if (lab.camera.flat && !$("notice").textContent)
         lab.tell(T.noWebgl);
-    lab.listenKeys();
+    listenKeys(lab);
     window.addEventListener("hashchange", () => lab.openAddress());
     document.addEventListener("visibilitychange", () => lab.pace.reset());
     return window.festoonLab;

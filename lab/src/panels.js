@@ -4,6 +4,7 @@ import { CAMERAS } from "./camera.js";
 import { ARROWS, BEADS } from "./colours.js";
 import { element, sentence } from "./controls.js";
 import { COLUMN } from "./core.js";
+import { canDrag } from "./drag.js";
 import { factorTold } from "./pace.js";
 import { Plot, rangeOf, regimeColour } from "./plots.js";
 import { PRESETS } from "./scenes.js";
@@ -196,7 +197,7 @@ export class Panels {
             button.setAttribute("aria-pressed", String(button.dataset.camera === lab.camera.mode));
             button.hidden = lab.camera.flat && button.dataset.camera === "free";
         }
-        $("camera-help").textContent = T.cameraHelp[lab.camera.mode];
+        $("camera-help").textContent = `${T.cameraHelp[lab.camera.mode]}${canDrag(lab) ? ` ${T.drag}` : ""}`;
         this.colour.value = s.colour;
         this.turns.value = String(s.turns);
         for (const box of this.arrowBoxes) {

@@ -455,6 +455,70 @@ const tests = {
         assert.match(await page.$eval("#notice", (notice) => notice.textContent), /^<b>bad<\/b>\.csv: drive\.frequency/);
         await close(page);
     },
+    async "parts of a magnet are dragged in the view from above, and with the magnet; elsewhere a pointer turns the view"() {
+        for (const flat of [false, true]) {
+            const page = await open("", { flat });
+            await click(page, "[data-preset=discs]");
+            await click(page, "[data-camera=above]");
+            await described(page);
+            assert.match(await page.$eval("#camera-help", (text) => text.textContent), /Drag a part/);
+            /* A pixel looks at places that lie the farther apart, the lower they are. */
+            const apart = await page.evaluate(() => {
+                const { view } = window.festoonLab.lab, { height, width } = view.canvas;
+                return [0, -0.8].map((z) => Math.hypot(...view.placeAt(0.75, 0.5, z).map((v, i) => v - view.placeAt(0.5, 0.5, z)[i])) / ((view.eye?.position.z ?? 1) - z) / Math.tan((17 * Math.PI) / 180) / (width / height / 2));
+            });
+            if (!flat)
+                apart.forEach((share) => assert.ok(Math.abs(share - 1) < 1e-9, String(apart)));
+            /* Move the pointer over the view, from a place of the magnet's frame (mm, height in l) by a path (mm). */
+            const drag = (from, by) => page.evaluate(async ([x, y], [dx, dy]) => {
+                const { lab } = window.festoonLab, view = document.getElementById("view"), box = view.getBoundingClientRect();
+                lab.play(false);
+                lab.draw();
+                const turns = lab.row[36], c = Math.cos(2 * Math.PI * turns), s = Math.sin(2 * Math.PI * turns), z = lab.bodies[0].centre[2] + lab.bodies[0].size[1] / 2;
+                view.setPointerCapture = () => {};
+                /* Where a place is seen: by Newton's steps on where a pixel looks. */
+                const pixel = (p) => {
+                    const want = [c * p[0] - s * p[1], s * p[0] + c * p[1]].map((v) => v / lab.units.mm);
+                    let at = [0.5, 0.5];
+                    for (let i = 0; i < 20; ++i) {
+                        const o = lab.view.placeAt(...at, z), a = lab.view.placeAt(at[0] + 1e-3, at[1], z), b = lab.view.placeAt(at[0], at[1] + 1e-3, z);
+                        const m = [a[0] - o[0], b[0] - o[0], a[1] - o[1], b[1] - o[1]].map((v) => 1e3 * v), d = [want[0] - o[0], want[1] - o[1]], det = m[0] * m[3] - m[1] * m[2];
+                        at = [at[0] + (m[3] * d[0] - m[1] * d[1]) / det, at[1] + (m[0] * d[1] - m[2] * d[0]) / det];
+                    }
+                    return { clientX: box.left + at[0] * box.width, clientY: box.top + at[1] * box.height };
+                };
+                const send = (name, at) => view.dispatchEvent(new PointerEvent(name, { pointerId: 1, bubbles: true, cancelable: true, ...at })), azimuth = lab.camera.place.azimuth;
+                send("pointerdown", pixel([x, y]));
+                send("pointermove", pixel([x + dx / 2, y + dy / 2]));
+                lab.draw(); /* the picture may have come nearer, to hold the magnet */
+                const end = pixel([x + dx, y + dy]);
+                send("pointermove", end);
+                lab.draw();
+                send("pointerup", pixel([x + dx, y + dy]));
+                return { centres: lab.core.parts().map(({ centre }) => centre.slice(0, 2).map((v) => Math.round(1e5 * v) / 100)), turned: lab.camera.place.azimuth !== azimuth, notice: document.getElementById("notice").textContent, hash: location.hash };
+            }, from, by);
+            for (const camera of ["above", "magnet"]) {
+                await click(page, `[data-preset=discs]`);
+                if (camera === "magnet")
+                    await click(page, "[data-camera=magnet]");
+                else
+                    await click(page, "[data-camera=above]");
+                const moved = await drag([20, 1], [4, 6]);
+                assert.deepEqual([moved.turned, moved.centres[1]], [false, [-18, 0]], camera);
+                moved.centres[0].forEach((v, i) => assert.ok(Math.abs(v - [22, 6][i]) < 0.05, `${camera}, flat ${flat}: ${moved.centres[0]}`));
+                assert.match(moved.hash, /magnet\.parts%5B0%5D\.centre%5B1%5D=[56]\.\d\d\+mm/);
+                await described(page);
+                if (!flat)
+                    await picture(page, `wide-dragged-${camera}`);
+                assert.ok((await drag([0, 25], [3, 3])).turned, "beside the magnets the view turns");
+            }
+            await click(page, "[data-preset=four]");
+            await click(page, "[data-camera=above]");
+            assert.ok(!/Drag a part/.test(await page.$eval("#camera-help", (text) => text.textContent)));
+            assert.ok((await drag([5, 5], [3, 3])).turned, "the paper's bar has no parts");
+            await close(page);
+        }
+    },
     async "two scenes side by side: each its own, both begun together, and back to the left one"() {
         for (const [name, size] of Object.entries({ wide: { width: 1280, height: 800 }, narrow: SIZES.narrow })) {
             const page = await open("#v=1&drive.frequency=12.5+Hz&ui.camera=above&ui.lang=de", { size });

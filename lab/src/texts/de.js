@@ -14,6 +14,7 @@ export default {
         magnet: "Man dreht sich mit dem Magneten: Er steht still, und aus den Girlanden wird eine geschlossene Schleife.",
         bead: "Man fährt mit der Kugel mit: An ihren Marken sieht man, ob sie rollt, gleitet oder haftet.",
     },
+    drag: "Teile des Magneten lassen sich mit dem Zeiger verschieben.",
     presets: "Versuche", details: "Im Einzelnen",
     presetNames: {
         locked: "Mitgenommen, 3 Hz", four: "10,7 Hz: vier Girlanden", twelve: "14,5 Hz", many: "19,9 Hz: viele Girlanden", critical: "Kritische Drehzahl: eine Rampe",

@@ -15,6 +15,7 @@ export default {
         magnet: "You ride with the magnet: it stands still, and a festoon pattern becomes a closed loop.",
         bead: "You ride with the bead: watch its marks to see it roll, slip or stick.",
     },
+    drag: "Drag a part of the magnet to move it.",
     presets: "Experiments", details: "In detail",
     presetNames: {
         locked: "Locked, 3 Hz", four: "10.7 Hz: four festoons", twelve: "14.5 Hz", many: "19.9 Hz: many festoons", critical: "Critical speed: a ramp",

@@ -14,6 +14,7 @@ export default {
         magnet: "Giras con el imán: está quieto, y los festones se convierten en un lazo cerrado.",
         bead: "Acompañas a la bola: sus marcas muestran si rueda, desliza o se adhiere.",
     },
+    drag: "Arrastra una parte del imán para moverla.",
     presets: "Experimentos", details: "En detalle",
     presetNames: {
         locked: "Arrastrada, 3 Hz", four: "10,7 Hz: cuatro festones", twelve: "14,5 Hz", many: "19,9 Hz: muchos festones", critical: "Velocidad crítica: una rampa",

@@ -18,6 +18,7 @@ export default typeset({
         magnet: "Vous tournez avec l’aimant : il reste immobile, et les festons deviennent une boucle fermée.",
         bead: "Vous accompagnez la bille : ses repères montrent si elle roule, glisse ou adhère.",
     },
+    drag: "Faites glisser une partie de l’aimant pour la déplacer.",
     presets: "Expériences", details: "En détail",
     presetNames: {
         locked: "Entraînée, 3 Hz", four: "10,7 Hz : quatre festons", twelve: "14,5 Hz", many: "19,9 Hz : beaucoup de festons", critical: "Vitesse critique : une rampe",

@@ -14,6 +14,7 @@ export default {
         magnet: "你随磁铁一起转动：磁铁静止不动，花彩线变成一条闭合曲线。",
         bead: "你跟随小球一起运动：看球上的标记，就知道它是在滚动、滑动还是被黏住。",
     },
+    drag: "拖动磁铁的某一部分即可移动它。",
     presets: "实验项目", details: "详细说明",
     presetNames: {
         locked: "锁定，3 Hz", four: "10.7 Hz：四段花彩", twelve: "14.5 Hz：花彩", many: "19.9 Hz：许多花彩", critical: "临界转速：逐渐加速",
