@@ -487,6 +487,9 @@ const library = {
             assert.equal(rows.length, own.length);
             rows.forEach((row, i) => row.forEach((value, k) => near(value, own[i][k], `${units}, row ${i}, column ${k}`, k === COLUMN.angle ? 1e-7 : 1e-8))); // acos of nearly 1
         }
+        const fly = { "friction.law": "coulomb", "impact.restitution": 0.6, "drive.frequency": "80 Hz", "run.periods": 3, "run.discard": 1 }, flown = played(fly, "lab").map((row) => row[COLUMN.z]), { eps } = core.groups();
+        assert.ok(Math.min(...flown) > eps - 1e-12 && Math.max(...flown) > eps + 1e-4, "a bead that flies is seen above the plate");
+        played(bowl, "si");
         const text = readFileSync(csv, "utf8"), refused = (change, why) => assert.throws(() => {
             const file = readTrajectory(change(text));
             core.setScene(file.scene);
