@@ -512,10 +512,9 @@ class Lab {
      * the browser come here too. */
     openAddress() {
         const { scene, view: { "ui.lang": language, ...view }, unknown } = readAddress(location.hash, this.known), step = Number(view["ui.step"]);
-        if (language && language !== this.language) {
-            this.settings.language = language;
+        this.settings.language = language ?? this.settings.language;
+        if (language && language !== this.language)
             this.speak();
-        }
         if (step >= 1) {
             this.lesson.open(step - 1);
             return;

@@ -242,7 +242,7 @@ const tests = {
         }
     },
     async "each language fills the page, from the address, the browser or the selector; its numbers come and go with a comma"() {
-        const words = { de: /^Gegenläufig: .* 3,\d\d? Umdrehungen/, fr: /^Contrarotative.: .* 3,\d\d? tours/, es: /^Contrarrotante: .* 3,\d\d? vueltas/, zh: /^反向绕行：.* 3\.\d\d? 圈/ };
+        const words = { en: /^Counter-rotating: .* 3\.\d\d? turns/, de: /^Gegenläufig: .* 3,\d\d? Umdrehungen/, fr: /^Contrarotative.: .* 3,\d\d? tours/, es: /^Contrarrotante: .* 3,\d\d? vueltas/, zh: /^反向绕行：.* 3\.\d\d? 圈/ };
         for (const [language, regime] of Object.entries(words))
             for (const [name, size] of Object.entries({ ...SIZES, wide: { width: 1280, height: 800 } })) {
                 const page = await open(`#v=1&drive.frequency=10.7+Hz&ui.settle=20&ui.lang=${language}`, { size });
@@ -251,7 +251,7 @@ const tests = {
                 assert.equal((await page.evaluate(() => document.documentElement.lang)).slice(0, 2), language);
                 assert.equal(await page.$eval("#language", (select) => select.value), language);
                 await picture(page, `${name}-${language}`);
-                const comma = language === "zh" ? "." : ",";
+                const comma = ["en", "zh"].includes(language) ? "." : ",";
                 await type(page, "#p-drive-frequency", `12${comma}5 Hz`);
                 assert.equal(await page.$eval("#p-drive-frequency", (field) => field.value), `12${comma}5 Hz`);
                 await type(page, "#p-magnet-depth", "17.25 mm");

@@ -5,7 +5,7 @@ export default {
     couldNotBegin: "Die Seite konnte nicht starten: {why}",
     stage: "Der Versuch", controls: "Bedienung",
     play: "Abspielen", pause: "Anhalten", step: "Schritt", restart: "Neustart",
-    slow: "Zeitlupe", realTime: "Echtzeit", slowValue: "{n}-mal langsamer", slowTrue: "{n}-mal langsamer (eingestellt: {set}): dieses Gerät ist zu langsam",
+    slow: "Zeitlupe", realTime: "Echtzeit", slowValue: "{n}-mal langsamer", slowTrue: "{n}-mal langsamer (eingestellt: {set}): Dieses Gerät ist zu langsam",
     screen: "Vollbild", screenLeave: "Vollbild verlassen",
     cameras: { above: "Von oben", free: "Frei", magnet: "Mit dem Magneten", bead: "Mit der Kugel" },
     cameraHelp: {

@@ -185,7 +185,7 @@ export default {
             question: "Hasta ahora el rozamiento era como el de un jarabe: cuanto más rápido el deslizamiento, mayor la fuerza. Las placas reales rozan en seco: un contacto se adhiere hasta que el empuje es demasiado grande. ¿Sigue yendo la bola en sentido contrario al imán?",
             answers: ["No, el rozamiento seco la detiene.", "Sí, y su contacto se adhiere y desliza por turnos.", "Sí, pero nunca rueda, solo desliza."],
             observe: "El rastro es claro donde el contacto se adhiere y oscuro donde desliza. La flecha naranja es la fuerza de rozamiento.",
-            explain: "Durante el 37 por ciento del tiempo el contacto se adhiere y la bola rueda como una rueda. Tres veces en cada lazo el empuje sobre el contacto se hace demasiado grande, y este desliza hasta que las velocidades vuelven a coincidir. El sentido del movimiento es el mismo que antes, porque viene del engranaje y no de la ley de rozamiento.",
+            explain: "Durante el 37 por ciento del tiempo el contacto se adhiere y la bola avanza como una rueda. Tres veces en cada lazo el empuje sobre el contacto se hace demasiado grande, y este desliza hasta que las velocidades vuelven a coincidir. El sentido del movimiento es el mismo que antes, porque viene del engranaje y no de la ley de rozamiento.",
         },
     ],
 };

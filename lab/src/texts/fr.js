@@ -74,7 +74,7 @@ export default typeset({
     names: {
         "bead.radius": "Rayon de la bille", "bead.mass": "Masse de la bille", "bead.moment": "Moment magnétique de la bille", "bead.material": "Matériau magnétique",
         "bead.inertia": "Moment d’inertie (en m R²)", "bead.density": "Masse volumique de la bille", "bead.remanence": "Rémanence de la bille",
-        "bead.a": "Aptitude à l’aimantation a", "bead.b": "Aptitude à l’aimantation b", "magnet.shape": "Type d’aimant", "magnet.half_length": "Demi-longueur l",
+        "bead.a": "Aimantabilité a", "bead.b": "Aimantabilité b", "magnet.shape": "Type d’aimant", "magnet.half_length": "Demi-longueur l",
         "magnet.width": "Largeur", "magnet.depth": "Profondeur de l’aimant", "magnet.lines": "Lignes de dipôles", "magnet.b0": "Unité de champ B₀",
         "drive.frequency": "Vitesse de l’aimant", "drive.omega": "Vitesse réduite", "friction.law": "Loi de frottement", "friction.gamma": "Taux visqueux γ",
         "friction.mu": "Coefficient sec μ", "friction.mu_static": "Coefficient statique", "friction.stribeck_speed": "Vitesse de Stribeck",
