@@ -170,7 +170,7 @@ export default {
             title: "Girlanden",
             question: "Von oben gesehen zeichnet die Kugel Girlanden (englisch „festoons“, daher der Name des Programms): etwa vier pro Runde. Wie sieht die Bahn für jemanden aus, der sich mit dem Magneten dreht?",
             answers: ["Genauso verschlungen.", "Wie eine geschlossene Schleife.", "Wie eine gerade Linie."],
-            observe: "Jetzt steht der Magnet still, und die Platte dreht sich darunter weg. Die Kugel zeichnet immer wieder dieselbe Schleife. Wechsle zwischen „Von oben“ und „Mit dem Magneten“.",
+            observe: "Jetzt steht der Magnet still, und die Platte dreht sich unter der Kugel. Die Kugel zeichnet immer wieder dieselbe Schleife. Wechsle zwischen „Von oben“ und „Mit dem Magneten“.",
             explain: "Im Bezugssystem des Magneten ändert sich nichts mit der Zeit, darum kann sich die Kugel genau wiederholen: eine periodische Bahn. Die Zahl der Girlanden sagt, wie oft die Schleife durchlaufen wird, während die Kugel einmal um die Platte kreist: 4,19-mal. Darum schließt sich das Muster von oben gesehen nach einer Runde nicht.",
         },
         {

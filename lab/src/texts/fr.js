@@ -174,7 +174,7 @@ export default typeset({
             title: "Des guirlandes",
             question: "Vue d’en haut, la bille dessine des guirlandes, ou festons (en anglais « festoons », d’où le nom du programme) : environ quatre à chaque tour de la bille. À quoi ressemble la trajectoire pour qui tourne avec l’aimant ?",
             answers: ["Elle est tout aussi emmêlée.", "À une boucle fermée.", "À une ligne droite."],
-            observe: "L’aimant est maintenant immobile, et la plaque tourne dessous. La bille dessine toujours la même boucle. Passez de « D’en haut » à « Avec l’aimant » et inversement.",
+            observe: "L’aimant est maintenant immobile, et la plaque tourne sous la bille. La bille dessine toujours la même boucle. Passez de « D’en haut » à « Avec l’aimant » et inversement.",
             explain: "Dans le référentiel de l’aimant, rien ne change avec le temps ; la bille peut donc se répéter exactement : c’est une orbite périodique. Le nombre de festons dit combien de fois la boucle est parcourue pendant que la bille fait une fois le tour de la plaque : 4,19. Vu d’en haut, le dessin ne se referme donc pas après un tour.",
         },
         {
