@@ -464,7 +464,8 @@ const tests = {
             assert.match(await page.$eval("#camera-help", (text) => text.textContent), /Drag a part/);
             /* A pixel looks at places that lie the farther apart, the lower they are. */
             const apart = await page.evaluate(() => {
-                const { view } = window.festoonLab.lab, { height, width } = view.canvas;
+                const { lab } = window.festoonLab, { view } = lab, { height, width } = view.canvas;
+                lab.draw();
                 return [0, -0.8].map((z) => Math.hypot(...view.placeAt(0.75, 0.5, z).map((v, i) => v - view.placeAt(0.5, 0.5, z)[i])) / ((view.eye?.position.z ?? 1) - z) / Math.tan((17 * Math.PI) / 180) / (width / height / 2));
             });
             if (!flat)
