@@ -166,32 +166,61 @@ static fst_status take(void *user, const fst_beads_sample *sample, fst_error *er
     return status;
 }
 
+static fst_status begin(lab *l, recorder *r)
+{
+    fst_params own;
+    fst_status status = FST_OK;
+    *r = (recorder){.l = l, .count = lab_bead_count(l)};
+    memset(l->rows, 0, sizeof *l->rows * FST_BEADS_MOST);
+    for (int bead = 0; bead < r->count && status == FST_OK; ++bead) {
+        status = bead_params(l, bead, &own);
+        if (status == FST_OK)
+            status = fst_field_model_new(&own, NAN, &r->models[bead], &l->error);
+        r->turns[bead][3] = 1.0;
+    }
+    if (status != FST_OK)
+        return status;
+    const fst_groups g = fst_model_groups(r->models[0]);
+    r->omega = g.omega;
+    r->plate = l->params.plate_shape == FST_PLATE_NONE ? 0.0 : g.h - g.eps;
+    r->laboratory = fst_frame_of_world(&l->params) == FST_FRAME_LABORATORY;
+    return FST_OK;
+}
+
+static int end(recorder *r, fst_status status)
+{
+    for (int bead = 0; bead < r->count; ++bead)
+        fst_model_free(r->models[bead]);
+    return (int)status;
+}
+
 /* Record the run: lab_take() hears of every sample.  Returns a status, FST_INTERRUPTED where it ended the recording. */
 EXPORT(lab_record) int lab_record(lab *l)
 {
-    recorder r = {.l = l, .count = lab_bead_count(l)};
+    recorder r;
     fst_beads_options options = fst_default_beads_options();
-    fst_params own;
-    fst_status status = FST_OK;
-    memset(l->rows, 0, sizeof *l->rows * FST_BEADS_MOST);
-    for (int bead = 0; bead < r.count && status == FST_OK; ++bead) {
-        status = bead_params(l, bead, &own);
-        if (status == FST_OK)
-            status = fst_field_model_new(&own, NAN, &r.models[bead], &l->error);
-        r.turns[bead][3] = 1.0;
-    }
-    if (status == FST_OK) {
-        const fst_groups g = fst_model_groups(r.models[0]);
-        r.omega = g.omega;
-        r.plate = l->params.plate_shape == FST_PLATE_NONE ? 0.0 : g.h - g.eps;
-        r.laboratory = fst_frame_of_world(&l->params) == FST_FRAME_LABORATORY;
-        options.sample = take;
-        options.user = &r;
+    fst_status status = begin(l, &r);
+    options.sample = take;
+    options.user = &r;
+    if (status == FST_OK)
         status = run(l, &l->params, &options);
+    return end(&r, status);
+}
+
+/* Record what a file holds: `count` samples of a time (1/gamma), turns of the magnet, and twelve numbers of each bead in
+ * the frame of the scene's run.  One bead on a plate, of which the page computes the motion itself, is taken too.  Loads
+ * and contacts are left 0. */
+EXPORT(lab_replay) int lab_replay(lab *l, const double *samples, int count)
+{
+    recorder r;
+    fst_status status = begin(l, &r);
+    for (int i = 0; i < count && status == FST_OK; ++i) {
+        const double *own = samples + (size_t)i * (size_t)(2 + FST_BEAD_NUMBERS * r.count);
+        const fst_beads_sample sample = {
+            .t = own[0], .drive_turns = own[1], .count = r.count, .states = own + 2};
+        status = take(&r, &sample, &l->error);
     }
-    for (int bead = 0; bead < r.count; ++bead)
-        fst_model_free(r.models[bead]);
-    return (int)status;
+    return end(&r, status);
 }
 
 /* The radius of a bead, l. */

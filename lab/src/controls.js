@@ -2,7 +2,7 @@
  * value with a unit, and where it makes sense a slider; what the library refuses is said below, in its own words. */
 
 import { STATUS } from "./core.js";
-import { T } from "./texts.js";
+import { plainOf, say, shown, T } from "./texts.js";
 
 /* Where sliders begin and end, in the unit that is shown; other rows go from a quarter to four times their default. */
 const SLIDERS = {
@@ -56,7 +56,9 @@ export class Controls {
     }
 
     build(main, others) {
-        const groups = new Map();
+        const groups = new Map(), open = [...others.children].map((group) => group.open);
+        main.replaceChildren();
+        others.replaceChildren();
         for (const row of this.core.parameters) {
             if (HIDDEN.has(row.key) || isBeyond(row.key) || row.kind === "text") // a page reads no files
                 continue;
@@ -72,15 +74,15 @@ export class Controls {
             if (this.rows.has(key))
                 main.append(this.rows.get(key).box);
         for (const [name, boxes] of groups)
-            others.append(element("details", {}, element("summary", {}, T.groups[name] || name), ...boxes));
+            others.append(element("details", { open: open[others.children.length] ?? false }, element("summary", {}, T.groups[name] || name), ...boxes));
     }
 
     row(info) {
         const id = `p-${info.key.replace(/\W/g, "-")}`, [unit, factor] = SHOWN[info.unit] || ["", 1];
-        const name = T.names[info.key] || info.key, label = element("label", { for: id, title: info.key }, name);
-        const error = element("p", { class: "error", id: `${id}-error`, role: "alert" });
-        const help = element("p", { class: "help", id: `${id}-help` }, `${info.key}: ${info.doc}`);
-        const more = element("button", { type: "button", class: "more", "aria-label": T.about(name), "aria-expanded": "false", "aria-controls": `${id}-help` }, "?");
+        const name = T.names[info.key] || info.key, label = element("label", { for: id, title: info.key }, name.replace(/ (?=\S\S?$)/, "\u00a0"));
+        const error = element("p", { class: "error", lang: "en", id: `${id}-error`, role: "alert" });
+        const help = element("p", { class: "help", id: `${id}-help`, lang: "en" }, `${info.key}: ${info.doc}`); // the library's words
+        const more = element("button", { type: "button", class: "more", "aria-label": say(T.about, { name }), "aria-expanded": "false", "aria-controls": `${id}-help` }, "?");
         help.hidden = true;
         more.addEventListener("click", () => {
             help.hidden = !help.hidden;
@@ -108,13 +110,13 @@ export class Controls {
         if (!limits || ["run", "impact"].includes(info.key.split(".")[0]))
             return null;
         const [min, max, step] = limits;
-        const made = element("input", { type: "range", min: plain(min), max: plain(max), step: plain(step), "aria-label": T.slider(T.names[info.key] || info.key) });
+        const made = element("input", { type: "range", min: plain(min), max: plain(max), step: plain(step), "aria-label": say(T.slider, { name: T.names[info.key] || info.key }) });
         made.addEventListener("input", () => this.take(row, `${made.value}${row.unit && ` ${row.unit}`}`, made));
         return made;
     }
 
     take(row, text, from) {
-        const wrong = this.changed(row.info.key, text.trim());
+        const wrong = this.changed(row.info.key, row.info.kind === "choice" ? text : plainOf(text));
         row.error.textContent = wrong || "";
         row.field.setAttribute("aria-invalid", wrong ? "true" : "false");
         if (!wrong)
@@ -134,8 +136,8 @@ export class Controls {
                 row.field.value = said;
                 continue;
             }
-            row.field.value = /[a-z]/i.test(texts[key] || "") ? texts[key] : (said === "" ? "" : `${plain(value * factor)}${unit && ` ${unit}`}`);
-            row.field.placeholder = said === "" ? T.notGiven(unit) : "";
+            row.field.value = shown(/[a-z]/i.test(texts[key] || "") ? texts[key] : (said === "" ? "" : `${plain(value * factor)}${unit && ` ${unit}`}`));
+            row.field.placeholder = said !== "" ? "" : unit ? say(T.notGivenIn, { unit }) : T.notGiven;
             if (row.slider && row.slider !== from && said !== "")
                 row.slider.value = String(value * factor);
         }

@@ -284,6 +284,19 @@ export class Core {
             this.check(status);
     }
 
+    /* The same of samples from a file, each a time (1/gamma), turns of the magnet and twelve numbers of each bead. */
+    replay(samples, count, take) {
+        this.c.lab_forget(this.bead);
+        this.take = (rows) => (take(rows) ? 1 : 0);
+        const at = this.given(this.c.lab_alloc(8 * samples.length));
+        try {
+            this.doubles(at, samples.length).set(samples);
+            this.check(this.c.lab_replay(this.bead, at, count));
+        } finally {
+            this.c.lab_release(at);
+        }
+    }
+
     worldResult() {
         const run = this.result(), frame = this.text(this.c.lab_world_frame(this.bead));
         const numbers = Array.from(this.doubles(this.c.lab_world_numbers(this.bead), 40), number);

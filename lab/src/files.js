@@ -3,7 +3,8 @@
 import { element, sentence } from "./controls.js";
 import { COLUMN } from "./core.js";
 import { readScene, readTrack, writeScene } from "./state.js";
-import { T } from "./texts.js";
+import { say, T } from "./texts.js";
+import { readTrajectory } from "./trajectory.js";
 
 const LONGEST_FILE = 20e6, DEGREES = 180 / Math.PI;
 
@@ -26,23 +27,27 @@ export function motionTable(samples, units) {
 export class Files {
     constructor(lab) {
         this.lab = lab;
-        const box = document.getElementById("files"), add = (id, text, act) => {
+        this.listenDrops();
+    }
+
+    build() {
+        const { lab } = this, box = document.getElementById("files"), add = (id, text, act) => {
             const button = element("button", { type: "button", id }, text);
             button.addEventListener("click", act);
             box.append(button);
             return button;
         };
+        box.replaceChildren();
         add("save-csv", T.saveCsv, () => save("festoon-motion.csv", new Blob([motionTable(lab.trail.samples, lab.units)], { type: "text/csv" })));
         add("save-png", T.savePng, () => lab.view.canvas.toBlob((blob) => blob && save("festoon.png", blob)));
         if (window.MediaRecorder && HTMLCanvasElement.prototype.captureStream)
-            this.film = add("save-film", T.saveFilm, () => this.record());
+            this.film = add("save-film", this.recorder ? T.stopFilm : T.saveFilm, () => this.record());
         add("save-scene", T.saveScene, () => save("festoon.yaml", new Blob([this.sceneText()], { type: "text/yaml" })));
         add("copy", T.copy, () => this.copy());
         const input = element("input", { type: "file", id: "open", accept: ".yaml,.yml,.csv,.txt", hidden: true });
         input.addEventListener("change", () => input.files[0] && this.open(input.files[0]));
         add("open-button", T.open, () => input.click());
         box.append(input, element("p", { class: "help" }, T.openHelp));
-        this.listenDrops();
     }
 
     sceneText() {
@@ -93,21 +98,22 @@ export class Files {
         const { lab } = this, name = file.name.slice(0, 80);
         try {
             if (file.size > LONGEST_FILE)
-                throw new Error("the file is larger than 20 MB");
+                throw new Error(T.bad.large);
             const text = await file.text();
-            if (/\.(ya?ml)$/i.test(file.name)) {
-                const scene = readScene(text), view = { ...lab.viewWords(), "ui.ramp": "0", "ui.settle": "0" }; /* a scene begins at its own start */
+            const trajectory = readTrajectory(text);
+            if (trajectory || /\.(ya?ml)$/i.test(file.name)) {
+                const scene = trajectory?.scene ?? readScene(text), view = { ...lab.viewWords(), "ui.ramp": "0", "ui.settle": "0" }; /* a scene begins at its own start */
                 let wrong = null;
                 lab.replace(() => {
                     lab.lesson.close();
-                    wrong = lab.open({ scene, view });
+                    wrong = lab.open({ scene, view }, trajectory);
                 });
-                lab.tell(wrong ? T.failed(name, wrong) : T.opened(name), Boolean(wrong));
+                lab.tell(wrong ? say(T.pair, { name, value: wrong }) : say(trajectory ? T.replayed : T.opened, { name }), Boolean(wrong));
             } else {
                 this.showTrack(readTrack(text));
             }
         } catch (error) {
-            lab.tell(T.failed(name, sentence(error)), true);
+            lab.tell(say(T.pair, { name, value: sentence(error) }), true);
         }
     }
 
@@ -118,6 +124,6 @@ export class Files {
             scale = (mean(lab.trail.samples.map((row) => row[COLUMN.r])) || 0.8) / mean(points.map((p) => Math.hypot(...p)));
         lab.showTrack(points.map((p) => [p[0] * scale, p[1] * scale]));
         lab.panels.chooseCamera("above");
-        lab.tell(T.trackShown(points.length, unit));
+        lab.tell(`${say(T.trackShown, { n: points.length })}${unit === "px" ? ` ${T.trackInPixels}` : ""}`);
     }
 }

@@ -19,7 +19,8 @@ async function load() {
 }
 
 window.festoonLab = {};
+window.festoonPage = `<!doctype html>${document.documentElement.outerHTML}`; /* before anything has changed it: beside.js needs it */
 window.festoonLab.ready = load();
 window.festoonLab.ready.catch((error) => {
-    document.getElementById("notice").textContent = `The page could not begin: ${error.message}`;
+    document.getElementById("notice").textContent = window.festoonLab.couldNotBegin?.(error) ?? `The page could not begin: ${error.message}`;
 });

@@ -3,16 +3,20 @@ import { CAMERAS, Camera } from "./camera.js";
 import { ARROWS, BEADS, NORTH, SOUTH } from "./colours.js";
 import { Controls, element, sentence } from "./controls.js";
 import { COLUMN, COLUMNS, Core, STOP } from "./core.js";
+import { listenDrags } from "./drag.js";
 import { Files } from "./files.js";
+import { listenKeys } from "./keys.js";
 import { Lesson } from "./lesson.js";
 import { bodiesOf, hullOf } from "./magnet.js";
 import { Pace } from "./pace.js";
 import { Panels } from "./panels.js";
 import { Pool } from "./pool.js";
 import { Recording } from "./recording.js";
+import { PRESETS } from "./scenes.js";
 import { readAddress, takeGood, writeAddress } from "./state.js";
-import { PRESETS, T } from "./texts.js";
+import { languageOf, say, speak, T } from "./texts.js";
 import { QUANTITIES, SPACING, Trail, unitsOf } from "./trail.js";
+import { recordingOf } from "./trajectory.js";
 import { View2D } from "./view2d.js";
 import { View3D } from "./view3d.js";
 
@@ -29,7 +33,7 @@ class Lab {
         this.pool = pool;
         this.known = (key) => core.knows(key);
         this.scene = {};
-        this.settings = { slow: 20, colour: "nz", turns: TURNS, arrows: new Set(), ramp: null, settle: 0 };
+        this.settings = { slow: 20, colour: "nz", turns: TURNS, arrows: new Set(), ramp: null, settle: 0, language: null };
         this.trail = new Trail(ROOM);
         this.camera = new Camera();
         this.trails = [this.trail]; /* of each bead; `trail` is that of the first */
@@ -46,7 +50,7 @@ class Lab {
     openView() {
         const solid = $("view"), plain = solid.cloneNode();
         for (const canvas of [solid, plain]) {
-            canvas.setAttribute("aria-label", T.viewLabel);
+            listenDrags(canvas, this);
             this.camera.listen(canvas, () => this.wake());
         }
         try {
@@ -74,6 +78,7 @@ class Lab {
         if (focused)
             view.canvas.focus();
         this.view = view;
+        view.canvas.setAttribute("aria-label", T.viewLabel);
         this.camera.flat = view instanceof View2D;
         if (this.units) {
             this.furnish();
@@ -101,7 +106,7 @@ class Lab {
         this.groups = groups;
         const north = Math.sign(core.field(1, 0)[2]) || 1, waveform = core.get("drive.waveform"), wave = waveform === "wave";
         const real = core.get("magnet.shape") === "parts", radii = this.recording ? core.radii() : [groups.eps];
-        const bodies = real || !wave ? bodiesOf(groups, north, core.parts(), core.value("magnet.depth"), real) : [];
+        const bodies = this.bodies = real || !wave ? bodiesOf(groups, north, core.parts(), core.value("magnet.depth"), real) : [];
         const field = Math.hypot(...(this.recording ? this.row.subarray(COLUMN.b, COLUMN.b + 3) : magnetic)) || 1;
         this.view.furnish({
             eps: groups.eps, radii, plate: core.get("plate.shape"), bowl: core.value("plate.bowl_radius") / l,
@@ -136,6 +141,23 @@ class Lab {
         this.view.draw({ rows: this.rows, trails: this.trails, range: this.range, camera: this.camera, arrows: this.settings.arrows });
     }
 
+    /* All words in the language that was chosen, else in one of the browser's; nothing else changes. */
+    speak() {
+        this.language = this.settings.language ?? languageOf(navigator.languages);
+        speak(this.language);
+        this.tell("");
+        this.controls.build($("main-controls"), $("all-controls"));
+        this.panels.build();
+        this.files.build();
+        this.lesson.build();
+        this.namePlay();
+        if (!this.view)
+            return;
+        this.controls.show(null, this.scene);
+        this.panels.showView();
+        this.wake();
+    }
+
     /* ------------------------------------------------------------ scene and motion */
 
     /* A line at the top: news, or what went wrong. */
@@ -152,6 +174,17 @@ class Lab {
             return sentence(error);
         }
         this.scene = { ...scene };
+        this.replayed = null;
+        return null;
+    }
+
+    /* The samples of a trajectory of this scene take the place of what would be computed, until the scene changes. */
+    takeTrajectory(trajectory) {
+        try {
+            this.replayed = recordingOf(trajectory, this.core);
+        } catch (error) {
+            return sentence(error);
+        }
         return null;
     }
 
@@ -168,12 +201,19 @@ class Lab {
                 delete scene[info.otherForm];
             scene[key] = text;
         }
+        return this.changeTo(scene, key);
+    }
+
+    /* Another scene, which differs by one key, or by the places of a magnet's parts; the motion goes on where it can. */
+    changeTo(scene, key) {
         const wrong = this.takeScene(scene);
         if (wrong)
             return wrong;
         this.controls.texts = this.scene;
         if (key === "drive.frequency" || key === "drive.omega")
             this.settings.ramp = null;
+        if (key === "magnet.shape")
+            this.panels.showView();
         if (key.startsWith("start.") || this.recording || this.core.isRecorded())
             this.begin();
         else
@@ -199,7 +239,7 @@ class Lab {
             this.pace.reset();
             this.left = STOP.TIME;
             this.tell("");
-            if (this.core.isRecorded()) {
+            if (this.replayed || this.core.isRecorded()) {
                 this.beginRecording();
                 return;
             }
@@ -235,13 +275,20 @@ class Lab {
     /* The first sample is computed here, the others come from a worker. */
     beginRecording() {
         const recording = (this.recording = new Recording());
-        this.core.record((rows) => {
-            recording.add([Float64Array.from(rows)]);
-            return true;
-        });
+        if (this.replayed)
+            recording.add(this.replayed);
+        else
+            this.core.record((rows) => {
+                recording.add([Float64Array.from(rows)]);
+                return true;
+            });
         this.takeRows(recording.rows(0).map((row) => row.slice()));
         this.clearTrails();
         this.furnish();
+        this.wake();
+        recording.done = this.replayed !== null;
+        if (recording.done)
+            return;
         let first = true;
         this.pool.record({ ...this.scene }, (samples) => {
             recording.add(first ? samples.slice(1) : samples);
@@ -252,7 +299,6 @@ class Lab {
         }).finally(() => {
             recording.done = true;
         });
-        this.wake();
     }
 
     /* Go on by what is recorded.  Returns the seconds that are done. */
@@ -363,8 +409,12 @@ class Lab {
         on = this.playing;
         this.pace.reset();
         this.wake();
-        $("play").textContent = on ? T.pause : T.play;
-        $("play").setAttribute("aria-pressed", String(on));
+        this.namePlay();
+    }
+
+    namePlay() {
+        $("play").textContent = this.playing ? T.pause : T.play;
+        $("play").setAttribute("aria-pressed", String(this.playing));
     }
 
     step() {
@@ -384,6 +434,7 @@ class Lab {
     changed() {
         this.remember();
         clearTimeout(this.timer);
+        this.waiting = true; /* for what a run says of the parameters */
         $("regime").textContent = T.wait;
         this.timer = setTimeout(() => this.runNow(), RUN_DELAY);
         this.panels.forgetSweep(JSON.stringify({ ...this.scene, "drive.frequency": 0, "drive.omega": 0 }));
@@ -391,9 +442,11 @@ class Lab {
 
     async runNow() {
         try {
-            this.panels.showRun(await this.pool.runLatest({ ...this.scene }, (share) => {
-                $("regime").textContent = T.waitShare(Math.floor(100 * share));
-            }));
+            const result = await this.pool.runLatest({ ...this.scene }, (share) => {
+                $("regime").textContent = say(T.waitShare, { n: Math.floor(100 * share) });
+            });
+            this.waiting = false;
+            this.panels.showRun(result);
         } catch (error) {
             if (error.status !== 8)
                 $("regime").textContent = sentence(error);
@@ -414,6 +467,8 @@ class Lab {
             words["ui.settle"] = String(s.settle);
         if (this.lesson.at >= 0)
             words["ui.step"] = String(this.lesson.at + 1);
+        if (s.language)
+            words["ui.lang"] = s.language;
         return words;
     }
 
@@ -441,9 +496,9 @@ class Lab {
         this.panels.showView();
     }
 
-    /* A whole state: scene and view. */
-    open({ scene, view }) {
-        const wrong = this.takeScene(scene);
+    /* A whole state: scene and view, and perhaps a trajectory of the scene to be played. */
+    open({ scene, view }, trajectory = null) {
+        const wrong = this.takeScene(scene) ?? (trajectory && this.takeTrajectory(trajectory));
         this.takeView(view);
         this.begin();
         if (wrong)
@@ -456,7 +511,10 @@ class Lab {
     /* The state that the address tells, of which what is bad or unknown is named and left out.  The Back and Forward of
      * the browser come here too. */
     openAddress() {
-        const { scene, view, unknown } = readAddress(location.hash, this.known), step = Number(view["ui.step"]);
+        const { scene, view: { "ui.lang": language, ...view }, unknown } = readAddress(location.hash, this.known), step = Number(view["ui.step"]);
+        this.settings.language = language ?? this.settings.language;
+        if (language && language !== this.language)
+            this.speak();
         if (step >= 1) {
             this.lesson.open(step - 1);
             return;
@@ -468,7 +526,7 @@ class Lab {
             const good = takeGood(scene, (some) => this.core.setScene(some)), wrong = good.errors.map((error) => `${sentence(error)}.`);
             this.open({ scene: good.scene, view });
             if (unknown.length)
-                wrong.push(T.unknown(unknown.join(", ")));
+                wrong.push(say(T.unknown, { words: unknown.join(", ") }));
             if (wrong.length)
                 this.tell(`${wrong.join(" ")} ${T.restTaken}`, good.errors.length > 0);
         }
@@ -496,30 +554,6 @@ class Lab {
         this.open({ scene: preset.scene, view: { "ui.settle": String(preset.settle ?? 0), ...preset.view } });
         this.play(true);
     }
-
-    listenKeys() {
-        document.addEventListener("keydown", (event) => {
-            const tag = event.target.tagName;
-            if (event.ctrlKey || event.metaKey || event.altKey || ["SELECT", "TEXTAREA"].includes(tag) || (tag === "INPUT" && event.target.type !== "range"))
-                return;
-            const camera = CAMERAS[Number(event.key) - 1];
-            if (event.key === " " && !["BUTTON", "SUMMARY"].includes(tag))
-                this.play(!this.playing);
-            else if (event.key === ".")
-                this.step();
-            else if (event.key.toLowerCase() === "r")
-                this.restart();
-            else if (camera)
-                this.panels.chooseCamera(camera);
-            else if (event.key === "5")
-                this.lesson.toggle();
-            else if (event.key.toLowerCase() === "f")
-                this.panels.fillScreen();
-            else
-                return;
-            event.preventDefault();
-        });
-    }
 }
 
 async function begin() {
@@ -543,21 +577,23 @@ async function begin() {
         },
     });
     lab.controls = new Controls(core, (key, text) => lab.change(key, text));
-    lab.controls.build($("main-controls"), $("all-controls"));
     lab.panels = new Panels(lab, SLOWS);
     lab.lesson = new Lesson(lab, $("lesson"));
     lab.files = new Files(lab);
-    lab.panels.build();
+    lab.panels.listen();
+    lab.speak();
     lab.openView();
     lab.openAddress();
     if (lab.camera.flat && !$("notice").textContent)
         lab.tell(T.noWebgl);
-    lab.listenKeys();
+    listenKeys(lab);
     window.addEventListener("hashchange", () => lab.openAddress());
     document.addEventListener("visibilitychange", () => lab.pace.reset());
     return window.festoonLab;
 }
 
+speak(languageOf(navigator.languages));
+window.festoonLab.couldNotBegin = (error) => say(T.couldNotBegin, { why: error.message });
 /* loader.js calls it, and shows what it throws. */
 window.festoonLab.begin = () => begin().catch((error) => {
     throw new Error(sentence(error), { cause: error });

@@ -1,16 +1,28 @@
 /* panels.js - what stands around the view: transport, cameras, presets, plots, numbers. */
+import { isOneOfTwo, openBeside } from "./beside.js";
 import { CAMERAS } from "./camera.js";
 import { ARROWS, BEADS } from "./colours.js";
 import { element, sentence } from "./controls.js";
 import { COLUMN } from "./core.js";
+import { canDrag } from "./drag.js";
 import { factorTold } from "./pace.js";
 import { Plot, rangeOf, regimeColour } from "./plots.js";
-import { PRESETS, T } from "./texts.js";
+import { PRESETS } from "./scenes.js";
+import { LANGUAGES, plainOf, say, shown, T } from "./texts.js";
 import { PALETTE, QUANTITIES } from "./trail.js";
 
 const $ = (id) => document.getElementById(id);
 const DEGREES = 180 / Math.PI, PLOT_EVERY = 120, BLUE = "#2f7fd0", ORANGE = "#d2622a", GREEN = "#2a9d74";
-const digits = (value, n = 4) => (value === null || value === undefined || !Number.isFinite(value) ? "–" : String(Number((Math.abs(value) < 5e-4 ? 0 : value).toPrecision(n))));
+const digits = (value, n = 4) => (value === null || value === undefined || !Number.isFinite(value) ? "–" : shown(Number((Math.abs(value) < 5e-4 ? 0 : value).toPrecision(n))));
+
+const percent = (share) => say(T.percent, { n: digits(100 * share, 3) });
+
+/* What a run of one bead says: the regime with its measures, which are texts. */
+export function regimeSentence(regime, measures) {
+    const { regimes } = T, name = !Object.hasOwn(regimes, regime) || regime === "undecided" ? (measures.oneOff ? "oneOff" : measures.free ? "free" : "undecided")
+        : regime === "counter-rotating" && measures.festoons !== null ? "festoons" : regime;
+    return say(regimes[name], measures);
+}
 
 export class Panels {
     constructor(lab, slows) {
@@ -21,20 +33,20 @@ export class Panels {
         this.drawn = -Infinity;
     }
 
-    build() {
+    /* What is there in all languages, once. */
+    listen() {
         const { lab } = this;
-        for (const [id, text] of Object.entries({
-            subtitle: T.subtitle, step: T.step, restart: T.restart, "slow-name": T.slow, "presets-name": T.presets, "main-name": T.main,
-            "view-name": T.view, "all-name": T.parameters, "files-name": T.files, keys: T.keys, "lesson-open": T.lesson,
-            stamp: `festoon ${lab.core.version}, results version ${lab.core.resultsVersion}`,
-        }))
-            $(id).textContent = text;
-        $("why-name").textContent = T.details;
+        $("stamp").textContent = `festoon ${lab.core.version}, results version ${lab.core.resultsVersion}`;
+        $("language").append(...Object.entries(LANGUAGES).map(([value, name]) => element("option", { value, lang: value }, name)));
+        $("language").addEventListener("change", () => {
+            lab.settings.language = $("language").value;
+            lab.speak();
+            lab.remember();
+        });
         $("play").addEventListener("click", () => lab.play(!lab.playing));
         $("step").addEventListener("click", () => lab.step());
         $("restart").addEventListener("click", () => lab.restart());
         $("lesson-open").addEventListener("click", () => lab.lesson.toggle());
-        $("slow").setAttribute("aria-label", T.slow);
         $("slow").max = String(this.slows.length - 1);
         $("slow").addEventListener("input", () => {
             lab.settings.slow = this.slows[Number($("slow").value)];
@@ -42,14 +54,41 @@ export class Panels {
             this.showView();
             lab.remember();
         });
-        $("cameras").setAttribute("aria-label", T.view);
+        this.buildScreen();
+        this.buildPaper();
+        this.canvas = new Plot($("plot"));
+        $("sweep-form").addEventListener("submit", (event) => {
+            event.preventDefault();
+            if (this.sweeping)
+                this.lab.pool.stopSweep();
+            else
+                this.sweep();
+        });
+        new ResizeObserver(() => this.frame(Infinity)).observe($("plot-box"));
+    }
+
+    /* All words, in the language that is spoken now. */
+    build() {
+        const { lab } = this;
+        document.documentElement.lang = T.lang;
+        document.title = `festoon lab: ${T.subtitle}`;
+        $("language").value = lab.language;
+        for (const [id, text] of Object.entries({
+            subtitle: T.subtitle, step: T.step, restart: T.restart, "slow-name": T.slow, "presets-name": T.presets, "main-name": T.main,
+            "view-name": T.view, "all-name": T.parameters, "files-name": T.files, keys: T.keys, "why-name": T.details,
+        }))
+            $(id).textContent = text;
+        for (const [id, text] of Object.entries({ language: T.language, slow: T.slow, cameras: T.view, stage: T.stage, controls: T.controls, view: T.viewLabel }))
+            $(id).setAttribute("aria-label", text);
+        $("cameras").replaceChildren();
+        $("presets").replaceChildren();
         for (const name of CAMERAS) {
             const button = element("button", { type: "button", "data-camera": name }, T.cameras[name]);
             button.addEventListener("click", () => this.chooseCamera(name));
             $("cameras").append(button);
         }
         for (const preset of PRESETS) {
-            const button = element("button", { type: "button", "data-preset": preset.id }, preset.name);
+            const button = element("button", { type: "button", "data-preset": preset.id }, T.presetNames[preset.id]);
             button.addEventListener("click", () => {
                 lab.replace(() => {
                     lab.lesson.close();
@@ -60,19 +99,22 @@ export class Panels {
         }
         this.buildView();
         this.buildPlots();
-        this.buildScreen();
-        this.buildPaper();
+        this.nameScreen();
+        if (lab.waiting)
+            $("regime").textContent = T.wait;
+        else if (this.result)
+            this.showRun(this.result);
     }
 
     /* The picture with its controls on the whole screen, where the browser lets a page have it. */
     buildScreen() {
-        const button = $("screen"), name = () => {
-            button.textContent = document.fullscreenElement ? T.screenLeave : T.screen;
-        };
-        button.hidden = !document.fullscreenEnabled;
-        button.addEventListener("click", () => this.fillScreen());
-        document.addEventListener("fullscreenchange", name);
-        name();
+        $("screen").hidden = !document.fullscreenEnabled;
+        $("screen").addEventListener("click", () => this.fillScreen());
+        document.addEventListener("fullscreenchange", () => this.nameScreen());
+    }
+
+    nameScreen() {
+        $("screen").textContent = document.fullscreenElement ? T.screenLeave : T.screen;
     }
 
     fillScreen() {
@@ -89,8 +131,8 @@ export class Panels {
             this.frame(Infinity);
         };
         window.addEventListener("beforeprint", () => {
-            const given = Object.entries(this.lab.scene).map(([key, value]) => `${T.names[key] || key}: ${T.choices[key]?.[value] || value}`);
-            $("paper").textContent = `${given.length ? T.paper(given.join("; ")) : T.paperDefault} ${$("stamp").textContent}.`;
+            const given = Object.entries(this.lab.scene).map(([key, value]) => say(T.pair, { name: T.names[key] || key, value: T.choices[key]?.[value] || shown(value) }));
+            $("paper").textContent = `${given.length ? say(T.paper, { given: given.join("; ") }) : T.paperDefault} ${$("stamp").textContent}.`;
             set(true);
         });
         window.addEventListener("afterprint", () => set(false));
@@ -126,8 +168,15 @@ export class Panels {
             arrows.append(element("label", {}, box, ` ${T.arrowNames[name]}`));
             return box;
         });
-        $("view-controls").append(element("div", { class: "row" }, element("div", { class: "head" }, element("label", { for: "colour" }, T.colour), this.colour)),
-            element("div", { class: "row" }, element("label", { for: "turns" }, T.trailTurns), this.turns), arrows);
+        $("view-controls").replaceChildren(element("div", { class: "row" }, element("label", { for: "colour" }, T.colour), this.colour),
+            element("div", { class: "row" }, element("label", { for: "turns" }, T.trailTurns), this.turns), arrows,
+            ...(isOneOfTwo() ? [] : [this.besideButton()]));
+    }
+
+    besideButton() {
+        const button = element("button", { type: "button", id: "beside-open" }, T.beside.open);
+        button.addEventListener("click", () => openBeside(this.lab).catch((error) => this.lab.tell(sentence(error), true)));
+        return button;
     }
 
     chooseCamera(name) {
@@ -143,12 +192,12 @@ export class Panels {
         const { lab } = this, s = lab.settings;
         $("slow").value = String(this.slows.indexOf(s.slow));
         this.showPace();
-        $("slow").setAttribute("aria-valuetext", T.slowValue(s.slow));
+        $("slow").setAttribute("aria-valuetext", this.paceText(s.slow));
         for (const button of $("cameras").children) {
             button.setAttribute("aria-pressed", String(button.dataset.camera === lab.camera.mode));
             button.hidden = lab.camera.flat && button.dataset.camera === "free";
         }
-        $("camera-help").textContent = T.cameraHelp[lab.camera.mode];
+        $("camera-help").textContent = `${T.cameraHelp[lab.camera.mode]}${canDrag(lab) ? ` ${T.drag}` : ""}`;
         this.colour.value = s.colour;
         this.turns.value = String(s.turns);
         for (const box of this.arrowBoxes) {
@@ -161,15 +210,20 @@ export class Panels {
     /* How much slower the motion is than in reality: what is set, or what this device keeps up with. */
     showPace() {
         const { slow } = this.lab.settings, kept = factorTold(slow, this.lab.pace.slower);
-        const text = kept === slow ? T.slowValue(slow) : T.slowTrue(kept, slow);
+        const text = kept === slow ? this.paceText(slow) : say(T.slowTrue, { n: shown(kept), set: slow === 1 ? T.realTime : shown(slow) });
         if ($("slow-value").textContent !== text)
             $("slow-value").textContent = text;
+    }
+
+    paceText(slow) {
+        return slow === 1 ? T.realTime : say(T.slowValue, { n: shown(slow) });
     }
 
     /* ------------------------------------------------------------ plots */
 
     buildPlots() {
-        this.canvas = new Plot($("plot"));
+        const texts = ["sweep-from", "sweep-to", "sweep-points"].map((id) => $(id)?.value);
+        $("plot-tabs").replaceChildren();
         for (const [name, text] of Object.entries(T.plots)) {
             const tab = element("button", { type: "button", role: "tab", id: `tab-${name}`, "aria-controls": "plot-box" }, text);
             tab.addEventListener("click", () => this.choosePlot(name));
@@ -185,20 +239,12 @@ export class Panels {
             });
             $("plot-tabs").append(tab);
         }
-        const field = (id, text, value, attributes) => element("span", {}, element("label", { for: id }, text), " ", element("input", { id, type: "number", value, ...attributes }));
-        this.go = element("button", { type: "submit", class: "strong", id: "sweep-go" }, T.sweep);
+        const field = (id, text, value) => element("span", {}, element("label", { for: id }, text), " ", element("input", { id, type: "text", inputmode: "decimal", autocomplete: "off", value }));
+        this.go = element("button", { type: "submit", class: "strong", id: "sweep-go" }, this.sweeping ? T.sweepStop : T.sweep);
         this.progress = element("span", { id: "sweep-done", role: "status" });
-        $("sweep-form").append(this.go, field("sweep-from", T.sweepFrom, "2", { min: "0.1", step: "any" }), field("sweep-to", T.sweepTo, "30", { min: "0.1", step: "any" }),
-            field("sweep-points", T.sweepPoints, "57", { min: "2", max: "2000", step: "1" }), this.progress);
-        $("sweep-form").addEventListener("submit", (event) => {
-            event.preventDefault();
-            if (this.sweeping)
-                this.lab.pool.stopSweep();
-            else
-                this.sweep();
-        });
-        new ResizeObserver(() => this.frame(Infinity)).observe($("plot-box"));
-        this.choosePlot("phi");
+        $("sweep-form").replaceChildren(this.go, field("sweep-from", T.sweepFrom, texts[0] ?? "2"), field("sweep-to", T.sweepTo, texts[1] ?? "30"),
+            field("sweep-points", T.sweepPoints, texts[2] ?? "57"), this.progress);
+        this.choosePlot(this.plot);
     }
 
     choosePlot(name) {
@@ -215,21 +261,21 @@ export class Panels {
     }
 
     async sweep() {
-        const { lab } = this, [from, to, count] = ["sweep-from", "sweep-to", "sweep-points"].map((id) => Number($(id).value));
+        const { lab } = this, [from, to, count] = ["sweep-from", "sweep-to", "sweep-points"].map((id) => plainOf($(id).value));
         const scene = { ...lab.scene };
         delete scene["drive.omega"];
         lab.pool.stopSweep();
         this.points.clear();
         const mine = (this.sweeping = {});
         this.go.textContent = T.sweepStop;
-        this.span = [Math.min(from, to), Math.max(from, to)];
+        this.span = [Math.min(Number(from), Number(to)), Math.max(Number(from), Number(to))];
         try {
             await window.festoonLab.sweep(scene, `drive.frequency=${from}:${to}:${count}`, (point, value, result) => {
                 if (this.sweeping !== mine)
                     return;
                 if (!(result instanceof Error))
                     this.points.set(point, result);
-                this.progress.textContent = T.sweepDone(this.points.size, count);
+                this.progress.textContent = say(T.sweepDone, { n: this.points.size, all: count });
                 this.frame(Infinity);
             });
         } catch (error) {
@@ -267,11 +313,11 @@ export class Panels {
 
     showLive() {
         const { lab } = this, row = lab.row;
-        const text = lab.ramping ? T.rampOn(lab.frequency().toFixed(2)) : `${digits(lab.frequency(), 4)} Hz`;
+        const text = lab.ramping ? say(T.rampOn, { f: shown(lab.frequency().toFixed(2)) }) : `${digits(lab.frequency(), 4)} Hz`;
         const rings = lab.core.get("plate.shape") === "none" || lab.core.get("drive.waveform") === "wave" ? "" : ` · ${T.ring}`;
-        $("live").textContent = `${text} · ${T.live(row[COLUMN.turns].toFixed(1), row[COLUMN.time].toFixed(2))}${rings}`;
-        const quantity = QUANTITIES[lab.settings.colour], range = lab.trail.count > 1 ? lab.range : [NaN, NaN];
-        const unit = typeof quantity.unit === "function" ? quantity.unit(lab.units) : quantity.unit;
+        $("live").textContent = `${text} · ${say(T.live, { turns: shown(row[COLUMN.turns].toFixed(1)), seconds: shown(row[COLUMN.time].toFixed(2)) })}${rings}`;
+        const quantity = QUANTITIES[lab.settings.colour], range = lab.trail.count > 1 && lab.range ? lab.range : [NaN, NaN]; // none before the first picture
+        const named = typeof quantity.unit === "function" ? quantity.unit(lab.units) : quantity.unit, unit = T.units[named] ?? named;
         const words = `${lab.rows.length} ${lab.settings.colour} ${range.map((v) => digits(v, 3)).join(" ")} ${[...lab.settings.arrows]}`;
         if (words === this.legend)
             return;
@@ -287,18 +333,18 @@ export class Panels {
             $("legend").replaceChildren(...arrows, ...lab.rows.map((bead, i) => {
                 const dot = element("b");
                 dot.style.background = BEADS[i];
-                return element("span", {}, dot, T.bead(i));
+                return element("span", {}, dot, say(T.bead, { n: i }));
             }));
             return;
         }
-        $("legend").replaceChildren(...arrows, element("span", {}, `${T.quantities[lab.settings.colour]}: ${digits(range[0], 3)}`, bar, `${digits(range[1], 3)}${unit && ` ${unit}`}`));
+        $("legend").replaceChildren(...arrows, element("span", {}, say(T.pair, { name: T.quantities[lab.settings.colour], value: digits(range[0], 3) }), bar, `${digits(range[1], 3)}${unit && ` ${unit}`}`));
     }
 
     drawPhi() {
         const { canvas, lab } = this, rows = lab.trails.flatMap((trail) => trail.samples.slice(-1400)), degrees = (row) => (((row[COLUMN.phi] * DEGREES) % 360) + 360) % 360;
         const series = [
             [T.plotLabels.r, BLUE, (row) => row[COLUMN.r] * lab.units.mm], [T.plotLabels.nz, ORANGE, (row) => row[COLUMN.nLocal + 2]],
-            [T.plotLabels.b(lab.units.tesla ? "mT" : "B₀"), GREEN, (row) => row[COLUMN.field] * lab.units.field],
+            [say(T.plotLabels.b, { unit: lab.units.tesla ? "mT" : "B₀" }), GREEN, (row) => row[COLUMN.field] * lab.units.field],
         ];
         const unit = (canvas.height - 28) / 3 / canvas.height;
         series.forEach(([label, colour, read], i) => {
@@ -345,7 +391,7 @@ export class Panels {
             pen.fillStyle = regimeColour(name);
             pen.fill();
             pen.fillStyle = canvas.ink.text;
-            pen.fillText(name, box.right - 110, y);
+            pen.fillText(T.regimeNames[name] ?? name, box.right - 110, y);
         });
     }
 
@@ -364,17 +410,22 @@ export class Panels {
         this.lab.panels.frame(Infinity);
     }
 
+    /* The reason in the library's words. */
+    showWhy(reason) {
+        $("why-text").textContent = reason || "";
+        $("why").hidden = !reason;
+    }
+
     /* What several beads do. */
     showBeads(result) {
         const mm = 1e3 * result.scales.length_unit_m, hertz = 1 / (2 * Math.PI * result.scales.time_unit_s);
         this.result = result;
-        $("regime").textContent = `${result.sentence[0].toUpperCase()}${result.sentence.slice(1)}.`;
-        $("why-text").textContent = result.reason || "";
-        $("why").hidden = !result.reason;
+        $("regime").textContent = T.outcomes[result.outcome] ?? T.outcomes.undecided;
+        this.showWhy(`${result.sentence[0].toUpperCase()}${result.sentence.slice(1)}. ${result.reason || ""}`);
         this.fill([
-            ...result.beads.map((bead, i) => [T.bead(i), `${digits(bead.mean_r === null ? null : bead.mean_r * mm)} mm, ${digits(bead.mean_alpha_dot === null ? null : bead.mean_alpha_dot * hertz)} Hz`]),
+            ...result.beads.map((bead, i) => [say(T.bead, { n: i }), `${digits(bead.mean_r === null ? null : bead.mean_r * mm)} mm, ${digits(bead.mean_alpha_dot === null ? null : bead.mean_alpha_dot * hertz)} Hz`]),
             [T.rows.touching, result.contacts.filter(({ b }) => b !== null).map(({ a, b }) => `${a}–${b}`).join(", ") || "–"],
-            [T.rows.impacts, result.powers.drive ? `${digits((100 * result.powers.impacts) / result.powers.drive, 3)} %` : "–"],
+            [T.rows.impacts, result.powers.drive ? percent(result.powers.impacts / result.powers.drive) : "–"],
         ]);
     }
 
@@ -393,9 +444,8 @@ export class Panels {
             r: digits(result.mean_r === null ? null : result.mean_r * mm), turns: digits(ratio, 3), free: result.scene["friction.law"] === "none", oneOff: result.scene["drive.waveform"] !== "steady",
             festoons,
         };
-        $("regime").textContent = (T.regimes[result.regime] || T.regimes.undecided)(measures);
-        $("why-text").textContent = result.reason || "";
-        $("why").hidden = !result.reason;
+        $("regime").textContent = regimeSentence(result.regime, measures);
+        this.showWhy(result.reason);
         const circles = result.mean_alpha_dot === null ? null : result.mean_alpha_dot * hertz;
         const rows = [
             [T.rows.mean_r, result.mean_r === null ? "–" : `${digits(result.mean_r * mm)} mm`],
@@ -404,7 +454,7 @@ export class Panels {
             [T.rows.festoons, festoons ?? "–"],
             [T.rows.angle, result.max_angle_deg === null ? "–" : `${digits(result.max_angle_deg, 3)}°`],
             [T.rows.slip, result.rms_slip === null ? "–" : `${digits(result.rms_slip * mm / result.groups.time_unit_s, 3)} mm/s`],
-            ...(result.never_slips === null ? [] : [[T.rows.sticking, result.sticking === null ? "–" : `${digits(100 * result.sticking, 3)} %`]]),
+            ...(result.never_slips === null ? [] : [[T.rows.sticking, result.sticking === null ? "–" : percent(result.sticking)]]),
             [T.rows.symmetry, T.symmetries[result.symmetry] || "–"],
             ...(Number.isFinite(result.mean_velocity) ? [[T.rows.velocity, `${digits(result.mean_velocity * mm / result.groups.time_unit_s)} mm/s`]] : []),
             ...(Number.isFinite(result.mean_height) ? [[T.rows.height, `${digits(result.mean_height * mm)} mm`]] : []),

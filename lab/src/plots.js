@@ -1,5 +1,7 @@
 /* plots.js - small plots on a canvas: points and lines over two axes with round ticks. */
 
+import { shown } from "./texts.js";
+
 const INK = { light: { text: "#33404d", grid: "#dde3ea", frame: "#8c99a6" }, dark: { text: "#c4ced9", grid: "#2b3644", frame: "#5d6b7a" } };
 const MARGIN = { left: 52, right: 10, top: 24, bottom: 36 };
 
@@ -65,14 +67,14 @@ export class Plot {
             this.line(ink.grid, [[at, top], [at, bottom]]);
             pen.fillStyle = ink.text;
             if (xTicks)
-                pen.fillText(String(value), at, bottom + 15);
+                pen.fillText(shown(value), at, bottom + 15);
         }
         pen.textAlign = "right";
         for (const value of ticks(y[0], y[1], Math.max(2, Math.min(6, (bottom - top) / 30)))) {
             const at = this.atY(value);
             this.line(ink.grid, [[left, at], [right, at]]);
             pen.fillStyle = ink.text;
-            pen.fillText(String(value), left - 5, at + 4);
+            pen.fillText(shown(value), left - 5, at + 4);
         }
         pen.strokeStyle = ink.frame;
         pen.strokeRect(left, top, right - left, bottom - top);

@@ -3,6 +3,7 @@
 
 import { CAMERAS } from "./camera.js";
 import { ARROWS } from "./colours.js";
+import { LANGUAGES, say, T } from "./texts.js";
 import { QUANTITIES } from "./trail.js";
 
 /* The words of an address that are no scene's, and what each may be. */
@@ -10,6 +11,7 @@ const isNumber = (text) => /^\s*\d/.test(text) && Number.isFinite(Number(text)),
 const VIEW = {
     "ui.slow": isNumber, "ui.camera": (text) => CAMERAS.includes(text), "ui.colour": isOf(QUANTITIES), "ui.trail": isNumber,
     "ui.arrows": (text) => text.split(",").every(isOf(ARROWS)), "ui.ramp": isNumber, "ui.settle": isNumber, "ui.step": isNumber,
+    "ui.lang": isOf(LANGUAGES),
 };
 const LONGEST = 200, FARTHEST = 1e9;
 const MILLIMETRES = new Map([["mm", 1], ["cm", 10], ["m", 1000], ["px", null]]);
@@ -106,7 +108,7 @@ export function readScene(text) {
     let group = "", list = null;
     const put = (key, value, line) => {
         if (key in scene)
-            throw new Error(`line ${line}: ${key.slice(0, 60)} is given twice`);
+            throw new Error(say(T.bad.twice, { line, key: key.slice(0, 60) }));
         scene[key] = value.replace(/^(["'])(.*)\1$/, "$2").slice(0, LONGEST);
     };
     /* A value, or the components of a vector. */
@@ -119,7 +121,7 @@ export function readScene(text) {
     };
     text.replace(/^\uFEFF/, "").split(/\r?\n/).forEach((whole, index) => {
         const line = whole.replace(/(^|\s)#.*$/, "").trimEnd(), number = index + 1;
-        const bad = () => new Error(`line ${number}: expected "key: value", as festoon init writes it`);
+        const bad = () => new Error(say(T.bad.row, { line: number }));
         if (!line.trim() || line.trim() === "---")
             return;
         const flow = /^(\s*)- +(\{.*\})$/.exec(line), found = flow || /^(\s*)(- +)?"?([A-Za-z_][\w.]*)"?\s*:\s*(.*)$/.exec(line);
@@ -160,10 +162,10 @@ export function readTrack(text) {
     const column = (name) => heads.findIndex((head) => head && head[1].toLowerCase() === name);
     const x = column("x"), y = column("y");
     if (x < 0 || y < 0)
-        throw new Error(`line ${lines[0]?.number || 1}: expected columns named x and y, as in: frame,t [s],x [mm],y [mm]`);
+        throw new Error(say(T.bad.columns, { line: lines[0]?.number || 1 }));
     const unit = heads[x][2] || "px", factor = MILLIMETRES.get(unit);
     if (factor === undefined)
-        throw new Error(`line ${lines[0].number}: "${unit.slice(0, 20)}" must be mm, cm, m or px`);
+        throw new Error(say(T.bad.unit, { line: lines[0].number, unit: unit.slice(0, 20) }));
     const points = [];
     lines.slice(1).forEach(({ line, number }) => {
         const row = cells(line);
@@ -171,13 +173,13 @@ export function readTrack(text) {
             return;
         const point = [Number(row[x]), Number(row[y])];
         if (!point.every((value) => Math.abs(value) <= FARTHEST))
-            throw new Error(`line ${number}: x and y must be numbers below ${FARTHEST}`);
+            throw new Error(say(T.bad.number, { line: number, most: FARTHEST }));
         points.push(point);
     });
     if (points.length < 3)
-        throw new Error("a track needs three places at least");
+        throw new Error(T.bad.few);
     if (points.every((p) => p[0] === points[0][0] && p[1] === points[0][1]))
-        throw new Error("all places of the track are the same");
+        throw new Error(T.bad.same);
     return { points: centred(points, factor || 1), unit: factor ? "mm" : "px" };
 }
 

@@ -25,6 +25,12 @@ export class View2D {
         this.canvas.height = Math.round(height * this.ratio);
     }
 
+    /* The place of the laboratory that is seen at a place of the picture, given as shares of its sides. */
+    placeAt(across, down) {
+        const { x, y } = this.shown.inverse().transformPoint({ x: across * this.canvas.width, y: down * this.canvas.height });
+        return [x, y];
+    }
+
     draw({ rows, trails, range, camera, arrows }) {
         const { pen, canvas, setup } = this, row = rows[0], riding = camera.mode === "magnet", close = camera.mode === "bead";
         const phase = 2 * Math.PI * row[COLUMN.magnet], x = row[COLUMN.x], y = row[COLUMN.y];
@@ -37,6 +43,7 @@ export class View2D {
         pen.rotate(-((camera.place.azimuth + 90) * Math.PI) / 180 - (riding ? phase : 0));
         if (close || setup.follows)
             pen.translate(-x, -y);
+        this.shown = pen.getTransform();
         this.plate(phase);
         if (setup.wave)
             this.wave(row, reach);

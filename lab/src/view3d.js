@@ -289,6 +289,13 @@ export class View3D {
         this.eye.updateProjectionMatrix();
     }
 
+    /* The place of the laboratory at a height that is seen at a place of the picture, given as shares of its sides. */
+    placeAt(across, down, z) {
+        this.eye.updateMatrixWorld();
+        const eye = this.eye.position, towards = new Vector3(2 * across - 1, 1 - 2 * down, 0.5).unproject(this.eye).sub(eye);
+        return [eye.x, eye.y].map((v, i) => v + ((z - eye.z) / towards.z) * towards.getComponent(i));
+    }
+
     draw({ rows, trails, range, camera, arrows }) {
         const row = rows[0], riding = camera.mode === "magnet";
         this.turning.rotation.z = 2 * Math.PI * row[COLUMN.magnet];

@@ -8,6 +8,7 @@ import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import puppeteer from "puppeteer-core";
+import { TABLES } from "../src/texts.js";
 import { goldenHashes } from "./golden.mjs";
 
 const { FESTOON, SOURCE_DIR, BUILD_DIR, CHROMIUM, PICTURES } = process.env;
@@ -21,7 +22,7 @@ const browser = await puppeteer.launch({
 const festoon = (...words) => execFileSync(FESTOON, words, { encoding: "utf8", stdio: ["ignore", "pipe", "pipe"] });
 
 /* A page that is ready, with all that it asked for and complained of. */
-async function open(hash = "", { size = SIZES.wide, flat = false, reduced = false, counted = false } = {}) {
+async function open(hash = "", { size = SIZES.wide, flat = false, reduced = false, counted = false, languages = ["en"] } = {}) {
     const page = await browser.newPage();
     page.asked = [];
     page.complaints = [];
@@ -29,6 +30,7 @@ async function open(hash = "", { size = SIZES.wide, flat = false, reduced = fals
     page.on("request", (request) => page.asked.push(request.url()));
     page.on("pageerror", (error) => page.complaints.push(error.message));
     page.on("console", (message) => ["error", "warn"].includes(message.type()) && !/GL Driver|GPU stall|WebGL/.test(message.text()) && page.complaints.push(message.text()));
+    await page.evaluateOnNewDocument((list) => Object.defineProperty(navigator, "languages", { value: list }), languages);
     if (reduced)
         await page.emulateMediaFeatures([{ name: "prefers-reduced-motion", value: "reduce" }]);
     if (flat)
@@ -94,6 +96,40 @@ async function checkAxe(page, name) {
 }
 
 const noSidewaysScroll = async (page) => assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth), "no sideways scrolling");
+
+/* No word is cut off, and no two of the page's controls lie over each other. */
+async function nothingOverlaps(page, where) {
+    await noSidewaysScroll(page);
+    const bad = await page.evaluate(() => {
+        const shown = [...document.querySelectorAll("button, label, select, dt, dd, summary, legend, h1, h2, input, output")].filter((element) => element.checkVisibility() && !element.closest("#all-controls label"));
+        const name = (element) => `${element.id || element.tagName} "${element.textContent.slice(0, 40)}"`;
+        const cut = shown.filter((element) => element.tagName !== "INPUT" && element.scrollWidth > element.clientWidth + 1 && element.clientWidth > 0).map((element) => `cut: ${name(element)}`);
+        const inView = document.getElementById("view-box").getBoundingClientRect();
+        cut.push(...[...document.querySelectorAll("#legend span, #live")].filter((element) => element.getBoundingClientRect().left < inView.left + 8).map((element) => `cut: ${element.textContent}`));
+        const boxes = shown.map((element) => [element, element.getBoundingClientRect()]);
+        const over = boxes.flatMap(([a, p], i) => boxes.slice(i + 1).filter(([b, q]) => !a.contains(b) && !b.contains(a)
+            && Math.min(p.right, q.right) - Math.max(p.left, q.left) > 1 && Math.min(p.bottom, q.bottom) - Math.max(p.top, q.top) > 1).map(([b]) => `over: ${name(a)} and ${name(b)}`));
+        const pen = document.createElement("canvas").getContext("2d");
+        const chosen = [...document.querySelectorAll("select")].filter((select) => select.checkVisibility()).flatMap((select) => {
+            const style = getComputedStyle(select);
+            pen.font = `${style.fontSize} ${style.fontFamily}`;
+            return [...select.options].filter((option) => pen.measureText(option.text).width > select.clientWidth - 38).map((option) => `cut in its list: ${option.text}`);
+        });
+        return [...cut, ...over, ...chosen];
+    });
+    assert.deepEqual(bad, [], where);
+}
+
+/* The page as it is printed: what it says, and on how many sheets.  To the page it is a print like any other. */
+async function paper(page, name) {
+    await page.emulateMediaType("print");
+    const text = await page.evaluate(() => document.body.innerText);
+    if (PICTURES)
+        await page.screenshot({ path: join(PICTURES, `${name}.png`), fullPage: true });
+    await page.emulateMediaType(null);
+    const sheets = await page.pdf({ format: "A4", margin: { top: "12mm", bottom: "12mm", left: "14mm", right: "14mm" } });
+    return { pages: (Buffer.from(sheets).toString("latin1").match(/\/Type\s*\/Page\b/g) ?? []).length, text };
+}
 
 const tests = {
     async "golden hash, runs and a sweep in workers have the program's bits"() {
@@ -205,6 +241,92 @@ const tests = {
             await close(page);
         }
     },
+    async "each language fills the page, from the address, the browser or the selector; its numbers come and go with a comma"() {
+        const words = { en: /^Counter-rotating: .* 3\.\d\d? turns/, de: /^Gegenläufig: .* 3,\d\d? Umdrehungen/, fr: /^Contrarotative.: .* 3,\d\d? tours/, es: /^Contrarrotante: .* 3,\d\d? vueltas/, zh: /^反向绕行：.* 3\.\d\d? 圈/ };
+        for (const [language, regime] of Object.entries(words))
+            for (const [name, size] of Object.entries({ ...SIZES, wide: { width: 1280, height: 800 } })) {
+                const page = await open(`#v=1&drive.frequency=10.7+Hz&ui.settle=20&ui.lang=${language}`, { size });
+                await page.waitForFunction(() => document.querySelector("#numbers dd"), { timeout: 0 });
+                assert.match(await page.$eval("#regime", (text) => text.textContent), regime);
+                assert.equal((await page.evaluate(() => document.documentElement.lang)).slice(0, 2), language);
+                assert.equal(await page.$eval("#language", (select) => select.value), language);
+                await picture(page, `${name}-${language}`);
+                const comma = ["en", "zh"].includes(language) ? "." : ",";
+                await type(page, "#p-drive-frequency", `12${comma}5 Hz`);
+                assert.equal(await page.$eval("#p-drive-frequency", (field) => field.value), `12${comma}5 Hz`);
+                await type(page, "#p-magnet-depth", "17.25 mm");
+                assert.equal(await page.$eval("#p-magnet-depth", (field) => field.value), `17${comma}25 mm`);
+                assert.deepEqual(await page.evaluate(() => ["drive.frequency", "magnet.depth"].map((key) => window.festoonLab.core.value(key))), [12.5, 0.01725]);
+                assert.match(await page.evaluate(() => location.hash), /drive\.frequency=12\.5\+Hz&magnet\.depth=17\.25\+mm.*ui\.lang=/);
+                await nothingOverlaps(page, `${language} ${name}`);
+                for (const quantity of name === "narrow" ? await page.$$eval("#colour option", (options) => options.map(({ value }) => value)) : []) {
+                    await page.select("#colour", quantity);
+                    await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+                    await nothingOverlaps(page, `${language} ${name} ${quantity}`);
+                }
+                await page.$$eval("#all-controls summary", (all) => all.forEach((summary) => summary.click()));
+                await page.$$eval("button.more", (all) => all[0].click());
+                await nothingOverlaps(page, `${language} ${name}, all`);
+                await checkAxe(page, `${language} ${name}`);
+                await click(page, "#lesson-open");
+                for (let step = 1; step <= 6; ++step) {
+                    await click(page, "#lesson .answers button:last-child");
+                    await click(page, "#lesson .strong");
+                    await nothingOverlaps(page, `${language} ${name}, step ${step}`);
+                    await picture(page, `${name}-${language}-lesson-${step}`);
+                    if (step < 6)
+                        await click(page, "#lesson nav button:last-child");
+                }
+                await close(page);
+            }
+    },
+    async "the selector changes the words and nothing else: motion, answer, curve and controls stay"() {
+        const page = await open("", { languages: ["pt-BR", "fr-CA", "en"] });
+        assert.deepEqual(await page.evaluate(() => [document.documentElement.lang, document.getElementById("language").value, location.hash.includes("ui.lang")]), ["fr", "fr", false]);
+        await click(page, "#lesson-open");
+        await click(page, "#lesson .answers button:nth-child(2)");
+        await click(page, "#lesson .strong");
+        await click(page, "#tab-sweep");
+        await type(page, "#sweep-to", "12,5");
+        await page.$$eval("#all-controls summary", (all) => all[1].click());
+        const state = () => page.evaluate(() => {
+            const { lab } = window.festoonLab;
+            lab.play(false);
+            return [JSON.stringify(lab.scene), lab.row[1], lab.trail.count, lab.panels.plot, document.getElementById("sweep-to").value, lab.camera.mode, lab.settings.slow,
+                [...document.querySelectorAll("#lesson .answers button")].map((button) => button.getAttribute("aria-pressed")).join(), [...document.querySelectorAll("#all-controls details")].findIndex((group) => group.open),
+                document.querySelectorAll("#cameras button").length, document.querySelectorAll("#plot-tabs button").length, document.querySelectorAll("#files button").length, document.querySelectorAll("[id]").length - new Set([...document.querySelectorAll("[id]")].map(({ id }) => id)).size];
+        });
+        const before = await state();
+        await page.select("#language", "de");
+        assert.deepEqual(await state(), before);
+        assert.deepEqual(await page.evaluate(() => [document.documentElement.lang, document.title, document.querySelector("#lesson .bad").textContent, document.querySelector("#lesson .explain") !== null, document.getElementById("lesson-open").textContent]),
+            ["de", "festoon lab: eine magnetische Kugel auf einem Magnetrührer", "Sieh genau hin: Sie tut etwas anderes.", true, "Lektion schließen"]);
+        assert.match(await page.evaluate(() => location.hash), /ui\.lang=de/);
+        await click(page, "#sweep-go");
+        await page.waitForFunction(() => /^57 von 57 Punkten/.test(document.getElementById("sweep-done").textContent), { timeout: 0 });
+        assert.equal(await page.evaluate(() => Math.max(...[...window.festoonLab.lab.panels.points.values()].map((point) => point.frequency_hz))), 12.5);
+        await click(page, "#play");
+        assert.equal(await page.$eval("#play", (button) => button.textContent), "Anhalten");
+        await page.select("#language", "zh");
+        assert.equal(await page.$eval("#play", (button) => button.textContent), "暂停");
+        await close(page);
+    },
+    async "the worksheet: the lesson on paper in the language of the page, with lines and a table, and no answer"() {
+        for (const language of Object.keys(TABLES)) {
+            const page = await open(`#v=1&ui.step=2&ui.lang=${language}`);
+            await page.evaluate(() => (window.print = () => (window.printed = true)));
+            await click(page, "#worksheet-open");
+            assert.ok(await page.evaluate(() => window.printed));
+            const { pages, text } = await paper(page, `worksheet-${language}`);
+            const steps = await page.$$eval("#worksheet section", (sections) => sections.length), empty = await page.$$eval("#worksheet td", (cells) => cells.filter((cell) => !cell.textContent).length);
+            assert.deepEqual([steps, empty, pages], [7, 21, 3], language);
+            assert.ok(text.includes(["de", "fr", "es"].includes(language) ? "10,7\t" : "10.7\t"), "a row of the table");
+            for (const { question, answers, observe, explain } of TABLES[language].lesson)
+                assert.deepEqual([question, ...answers, observe, explain].map((part) => text.includes(part)), [true, true, true, true, false, false], question);
+            assert.deepEqual(await page.evaluate(() => ["worksheet", "stage"].map((id) => document.getElementById(id).checkVisibility())), [false, true], "the screen as before");
+            await close(page);
+        }
+    },
     async "the ramp of the second step ends in counter-rotation"() {
         const page = await open("#v=1&drive.frequency=8.3+Hz&ui.ramp=9.6&ui.settle=100&ui.slow=1");
         const before = await page.evaluate(() => {
@@ -301,6 +423,130 @@ const tests = {
         assert.notEqual(await page.title(), "hit");
         assert.equal(await page.evaluate(() => window.festoonLab.core.value("drive.frequency")), 16);
         await close(page);
+    },
+    async "a dropped trajectory is played as it was recorded, in its own scene; a change computes anew"() {
+        const page = await open(), drop = (name, text) => page.evaluate((n, t) => window.festoonLab.lab.files.open(new File([t], n)), name, text);
+        const csv = (...sets) => {
+            const file = join(scratch, "played.csv");
+            festoon("run", ...sets.flatMap((set) => ["--set", set]), "--units", "lab", "--csv", file);
+            return readFileSync(file, "utf8");
+        };
+        const state = () => page.evaluate(() => {
+            const { lab } = window.festoonLab;
+            return { rows: lab.rows.length, time: lab.row[0], x: lab.row[3], radius: lab.units.mm, samples: lab.recording?.samples.length ?? 0, f: window.festoonLab.core.value("drive.frequency") };
+        });
+        const single = csv("drive.frequency=14.5Hz", "run.periods=6", "run.discard=1"), lines = single.trim().split("\n").filter((line) => !line.startsWith("#")).map((line) => line.split(","));
+        await drop("mine.csv", single);
+        assert.match(await page.$eval("#notice", (notice) => notice.textContent), /^mine\.csv is played as it was recorded/);
+        await page.evaluate(() => window.festoonLab.lab.play(false));
+        assert.deepEqual([(await state()).samples, (await state()).f], [lines.length - 1, 14.5]);
+        await click(page, "#restart");
+        await page.evaluate(() => window.festoonLab.lab.advance(100));
+        const place = (name) => lines[0].findIndex((head) => head.split(" ")[0] === name), last = lines.at(-1), end = await state();
+        assert.ok(Math.abs(end.time - Number(last[0])) < 1e-12 && Math.abs(end.x * end.radius - Number(last[place("x")])) < 1e-9, JSON.stringify(end));
+        assert.ok(await coloursOfView(page) > 12);
+        await picture(page, "wide-played");
+        await described(page);
+        await type(page, "#p-drive-frequency", "15 Hz");
+        assert.deepEqual(await page.evaluate(() => [window.festoonLab.lab.recording, window.festoonLab.lab.row[0]]), [null, 0]);
+        await drop("two.csv", csv("drive.frequency=30Hz", "beads[0].start.phi=3deg", "beads[1].start.phi=40deg", "run.periods=6", "run.discard=1"));
+        assert.equal((await state()).rows, 2);
+        await drop("<b>bad</b>.csv", single.replace("14.5 Hz", "14.5 furlong"));
+        assert.match(await page.$eval("#notice", (notice) => notice.textContent), /^<b>bad<\/b>\.csv: drive\.frequency/);
+        await close(page);
+    },
+    async "parts of a magnet are dragged in the view from above, and with the magnet; elsewhere a pointer turns the view"() {
+        for (const flat of [false, true]) {
+            const page = await open("", { flat });
+            await click(page, "[data-preset=discs]");
+            await click(page, "[data-camera=above]");
+            await described(page);
+            assert.match(await page.$eval("#camera-help", (text) => text.textContent), /Drag a part/);
+            /* A pixel looks at places that lie the farther apart, the lower they are. */
+            const apart = await page.evaluate(() => {
+                const { lab } = window.festoonLab, { view } = lab, { height, width } = view.canvas;
+                lab.draw();
+                return [0, -0.8].map((z) => Math.hypot(...view.placeAt(0.75, 0.5, z).map((v, i) => v - view.placeAt(0.5, 0.5, z)[i])) / ((view.eye?.position.z ?? 1) - z) / Math.tan((17 * Math.PI) / 180) / (width / height / 2));
+            });
+            if (!flat)
+                apart.forEach((share) => assert.ok(Math.abs(share - 1) < 1e-9, String(apart)));
+            /* Move the pointer over the view, from a place of the magnet's frame (mm, height in l) by a path (mm). */
+            const drag = (from, by) => page.evaluate(async ([x, y], [dx, dy]) => {
+                const { lab } = window.festoonLab, view = document.getElementById("view"), box = view.getBoundingClientRect();
+                lab.play(false);
+                lab.draw();
+                const turns = lab.row[36], c = Math.cos(2 * Math.PI * turns), s = Math.sin(2 * Math.PI * turns), z = lab.bodies[0].centre[2] + lab.bodies[0].size[1] / 2;
+                view.setPointerCapture = () => {};
+                /* Where a place is seen: by Newton's steps on where a pixel looks. */
+                const pixel = (p) => {
+                    const want = [c * p[0] - s * p[1], s * p[0] + c * p[1]].map((v) => v / lab.units.mm);
+                    let at = [0.5, 0.5];
+                    for (let i = 0; i < 20; ++i) {
+                        const o = lab.view.placeAt(...at, z), a = lab.view.placeAt(at[0] + 1e-3, at[1], z), b = lab.view.placeAt(at[0], at[1] + 1e-3, z);
+                        const m = [a[0] - o[0], b[0] - o[0], a[1] - o[1], b[1] - o[1]].map((v) => 1e3 * v), d = [want[0] - o[0], want[1] - o[1]], det = m[0] * m[3] - m[1] * m[2];
+                        at = [at[0] + (m[3] * d[0] - m[1] * d[1]) / det, at[1] + (m[0] * d[1] - m[2] * d[0]) / det];
+                    }
+                    return { clientX: box.left + at[0] * box.width, clientY: box.top + at[1] * box.height };
+                };
+                const send = (name, at) => view.dispatchEvent(new PointerEvent(name, { pointerId: 1, bubbles: true, cancelable: true, ...at })), azimuth = lab.camera.place.azimuth;
+                send("pointerdown", pixel([x, y]));
+                send("pointermove", pixel([x + dx / 2, y + dy / 2]));
+                lab.draw(); /* the picture may have come nearer, to hold the magnet */
+                const end = pixel([x + dx, y + dy]);
+                send("pointermove", end);
+                lab.draw();
+                send("pointerup", pixel([x + dx, y + dy]));
+                return { centres: lab.core.parts().map(({ centre }) => centre.slice(0, 2).map((v) => Math.round(1e5 * v) / 100)), turned: lab.camera.place.azimuth !== azimuth, notice: document.getElementById("notice").textContent, hash: location.hash };
+            }, from, by);
+            for (const camera of ["above", "magnet"]) {
+                await click(page, `[data-preset=discs]`);
+                if (camera === "magnet")
+                    await click(page, "[data-camera=magnet]");
+                else
+                    await click(page, "[data-camera=above]");
+                const moved = await drag([20, 1], [4, 6]);
+                assert.deepEqual([moved.turned, moved.centres[1]], [false, [-18, 0]], camera);
+                moved.centres[0].forEach((v, i) => assert.ok(Math.abs(v - [22, 6][i]) < 0.05, `${camera}, flat ${flat}: ${moved.centres[0]}`));
+                assert.match(moved.hash, /magnet\.parts%5B0%5D\.centre%5B1%5D=[56]\.\d\d\+mm/);
+                await described(page);
+                if (!flat)
+                    await picture(page, `wide-dragged-${camera}`);
+                assert.ok((await drag([0, 25], [3, 3])).turned, "beside the magnets the view turns");
+            }
+            await click(page, "[data-preset=four]");
+            await click(page, "[data-camera=above]");
+            assert.ok(!/Drag a part/.test(await page.$eval("#camera-help", (text) => text.textContent)));
+            assert.ok((await drag([5, 5], [3, 3])).turned, "the paper's bar has no parts");
+            await close(page);
+        }
+    },
+    async "two scenes side by side: each its own, both begun together, and back to the left one"() {
+        for (const [name, size] of Object.entries({ wide: { width: 1280, height: 800 }, narrow: SIZES.narrow })) {
+            const page = await open("#v=1&drive.frequency=12.5+Hz&ui.camera=above&ui.lang=de", { size });
+            await click(page, "#beside-open");
+            await page.waitForFunction(() => window.frames.length === 2 && [0, 1].every((i) => window.frames[i].festoonLab?.lab?.playing && window.frames[i].festoonLab.lab.language === "de"), { timeout: 0 });
+            const states = () => page.evaluate(() => [0, 1].map((i) => {
+                const { lab, core } = window.frames[i].festoonLab;
+                return [core.value("drive.frequency"), lab.camera.mode, lab.language, Boolean(window.frames[i].document.getElementById("beside-open"))];
+            }));
+            assert.deepEqual(await states(), [[12.5, "above", "de", false], [12.5, "above", "de", false]]);
+            assert.equal(await page.evaluate(() => window.festoonLab.lab.playing), false, "the page behind them rests");
+            const [left, right] = page.frames().filter((frame) => frame !== page.mainFrame());
+            await type(right, "#p-friction-law", "coulomb");
+            await type(left, "#p-drive-frequency", "13,5 Hz");
+            assert.deepEqual(await page.evaluate(() => [0, 1].map((i) => [window.frames[i].festoonLab.core.value("drive.frequency"), window.frames[i].festoonLab.core.get("friction.law")])), [[13.5, "viscous"], [12.5, "coulomb"]]);
+            assert.deepEqual(await page.evaluate(() => {
+                document.getElementById("beside-restart").click();
+                return new Promise((resolve) => setTimeout(() => resolve([0, 1].map((i) => window.frames[i].festoonLab.lab.row[1] < 1))));
+            }), [true, true]);
+            await page.waitForFunction(() => [0, 1].every((i) => window.frames[i].festoonLab.lab.trail.count > 20), { timeout: 0 });
+            await noSidewaysScroll(page);
+            await picture(page, `${name}-beside`);
+            await click(page, "#beside-close");
+            await page.waitForFunction(() => window.festoonLab.lab.playing, { timeout: 0 });
+            assert.deepEqual(await page.evaluate(() => [window.frames.length, window.festoonLab.core.value("drive.frequency"), window.festoonLab.core.get("friction.law")]), [0, 13.5, "viscous"]);
+            await close(page);
+        }
     },
     async "keys: play, step, cameras, lesson, and the view by arrows"() {
         const page = await open();

@@ -14,8 +14,11 @@ import { factorTold, Pace } from "../src/pace.js";
 import { ticks } from "../src/plots.js";
 import { coarseFirst, Pool } from "../src/pool.js";
 import { Recording } from "../src/recording.js";
+import { readTrajectory, recordingOf } from "../src/trajectory.js";
 import { readAddress, readScene, readTrack, takeGood, writeAddress, writeScene } from "../src/state.js";
-import { LESSON, PRESETS, T } from "../src/texts.js";
+import { regimeSentence } from "../src/panels.js";
+import { LESSON, PRESETS } from "../src/scenes.js";
+import { LANGUAGES, languageOf, plainOf, say, shown, speak, T, TABLES } from "../src/texts.js";
 import { goldenHashes } from "./golden.mjs";
 
 const { FESTOON, SOURCE_DIR, BUILD_DIR } = process.env;
@@ -85,6 +88,9 @@ function frames(gap, work, slow) {
     };
     return film;
 }
+
+/* Every text of a table by its path. */
+const textsOf = (words, path = "") => (typeof words === "string" ? [[path, words]] : Object.entries(words).flatMap(([key, value]) => textsOf(value, `${path}/${key}`)));
 
 /* On the sources alone. */
 const scripts = {
@@ -187,23 +193,93 @@ const scripts = {
         }
         for (const name of Object.values(T.names))
             assert.ok(!/_|\w\.\w/.test(name), name);
-        const free = T.regimes.undecided({ free: true, r: "14.6" });
-        assert.match(free, /^Without friction/);
-        for (const told of Object.values(T.regimes))
-            for (const without of [true, false]) {
-                const text = told({ r: "1", turns: "2", festoons: null, free: without, reason: "the Lyapunov exponent is 1 +- 2" });
+        assert.match(regimeSentence("undecided", { free: true, r: "14.6" }), /^Without friction/);
+        assert.match(regimeSentence("undecided", { free: true, oneOff: true }), /^This drive/);
+        assert.match(regimeSentence("constructor", {}), /^Undecided/);
+        for (const regime of Object.keys(T.regimeNames))
+            for (const free of [true, false]) {
+                const text = regimeSentence(regime, { r: "1", turns: "2", festoons: null, free, reason: "the Lyapunov exponent is 1 +- 2" });
                 assert.ok(!/undefined|null|NaN|Lyapunov|\+-|±|festoons/.test(text), text);
             }
-        assert.match(T.regimes["counter-rotating"]({ turns: "3.19", festoons: "4.19" }), /draws 4\.19 festoons a lap/);
+        assert.match(regimeSentence("counter-rotating", { turns: "3.19", festoons: "4.19" }), /draws 4\.19 festoons a lap/);
+    },
+    "each language has every word: the same keys, the same places, and no English but names and units"() {
+        const placesIn = (text) => (text.match(/\{\w+\}/g) ?? []).sort();
+        /* What is the same in English, and may be. */
+        const same = {
+            de: ["/pair", "/percent", "/plots/path", "/worksheet/name", "/groups/magnet", "/groups/start"],
+            fr: ["/plots/path", "/quantities/r", "/groups/contact", "/worksheet/date"], es: ["/pair", "/percent"], zh: [],
+        };
+        assert.deepEqual(Object.keys(LANGUAGES), Object.keys(TABLES));
+        const english = new Map(textsOf(TABLES.en));
+        for (const [language, table] of Object.entries(TABLES)) {
+            const own = new Map(textsOf(table));
+            assert.deepEqual([...own.keys()].sort(), [...english.keys()].sort(), language);
+            assert.equal(table.lesson.length, LESSON.length);
+            table.lesson.forEach((step, i) => assert.ok(step.answers.length === 3 && LESSON[i].answer < 3 && new Set(step.answers).size === 3));
+            assert.deepEqual(Object.keys(table.presetNames), PRESETS.map(({ id }) => id), language);
+            assert.equal(table.lang.slice(0, 2), language);
+            if (language === "en")
+                continue;
+            assert.deepEqual([...own].filter(([path, text]) => text === english.get(path)).map(([path]) => path).sort(), same[language].sort(), `${language}: still English`);
+            for (const [path, text] of own) {
+                assert.ok(text.trim() === text && text !== "", `${language} ${path}`);
+                assert.deepEqual(placesIn(text), placesIn(english.get(path)), `${language} ${path}`);
+            }
+        }
+    },
+    "numbers that a translated text states are those of the English one, written as the language writes them"() {
+        const numbersIn = (text) => (text.replace(/\{\w+\}|x \[mm\].*/g, "").match(/\d+(?:[.,]\d+)?/g) ?? []).map((number) => number.replace(",", ".")).sort();
+        const english = new Map(textsOf(TABLES.en));
+        for (const language of ["de", "fr", "es", "zh"])
+            for (const [path, text] of textsOf(TABLES[language])) {
+                assert.deepEqual(numbersIn(text), numbersIn(english.get(path)), `${language} ${path}`);
+                assert.ok(!(language === "zh" ? /\d,\d/ : /\d\.\d/).test(text), `${language} ${path}: another language's decimal sign`);
+            }
+    },
+    "each language has its own quotation marks and spaces"() {
+        /* What no text of a language has. */
+        const foreign = {
+            de: /[”«»']/, fr: /[“”„']| [;!?:»%]|« |[^\u202f][;!?»]|[^\u00a0]:(?! valeur)|«[^\u202f]/, es: /[“”„']/, zh: /[«»„']|\p{Script=Han}[,;:?!]|[,;?!]\p{Script=Han}/u,
+        };
+        const pairs = { de: ["„", "“"], fr: ["«", "»"], es: ["«", "»"], zh: ["“", "”"] };
+        for (const [language, marks] of Object.entries(foreign))
+            for (const [path, text] of textsOf(TABLES[language])) {
+                assert.ok(!marks.test(path === "/bad/row" ? text.replace("键: 值", "") : text), `${language} ${path}: ${text}`);
+                assert.equal(...pairs[language].map((mark) => text.split(mark).length), `${language} ${path}`);
+                if (language === "es")
+                    assert.ok(text.split("¿").length === text.split("?").length && text.split("¡").length === text.split("!").length, path);
+            }
+    },
+    "numbers are shown with the language's comma, and typed with comma or point they are the library's"() {
+        try {
+            for (const [language, comma] of Object.entries({ en: ".", de: ",", fr: ",", es: ",", zh: "." })) {
+                speak(language);
+                assert.equal(shown("900.5 rpm"), `900${comma}5 rpm`);
+                assert.equal(shown(10.7), `10${comma}7`);
+                for (const text of ["10.7 Hz", "-3.25 deg", "1e-3", "0.3cm", "1.5e3 Pa"])
+                    assert.equal(plainOf(shown(text)), text, language);
+            }
+            speak("zh");
+            assert.equal(plainOf("１０．７ Hz"), "10.7 Hz");
+            speak("de");
+            assert.equal(plainOf(" −2,5 "), "-2.5");
+            assert.equal(plainOf("1.000,5"), "1.000.5", "which the library refuses");
+            assert.equal(say(T.sweepDone, { n: "{all}", all: 3 }), "{all} von 3 Punkten");
+        } finally {
+            speak("en");
+        }
+        assert.equal(plainOf("1,000"), "1,000", "in English a comma is no decimal sign");
+        assert.deepEqual([languageOf(["pt-BR", "fr-CA", "en"]), languageOf(["zh-CN"]), languageOf([]), languageOf(["constructor"])], ["fr", "zh", "en", "en"]);
     },
     "an address comes back as it went, and unknown keys are named"() {
         const keys = new Set(JSON.parse(festoon("schema", "--json")).map((row) => row.key)), known = (key) => keys.has(key);
-        const scene = { "drive.frequency": "642 rpm", "start.phi": "-3 deg", "friction.law": "coulomb" }, view = { "ui.slow": "50", "ui.camera": "magnet" };
+        const scene = { "drive.frequency": "642 rpm", "start.phi": "-3 deg", "friction.law": "coulomb" }, view = { "ui.slow": "50", "ui.camera": "magnet", "ui.lang": "de" };
         const address = writeAddress(scene, view);
         assert.deepEqual(readAddress(address, known), { scene, view, unknown: [] });
         assert.deepEqual(readAddress("#v=1&drive.frequncy=3&<b>=1", known).unknown, ["drive.frequncy", "<b>"]);
-        const poor = readAddress("#v=1&ui.slow=abc&ui.settle=&ui.camera=side&ui.colour=constructor&ui.arrows=field,toString&ui.trail=9&start.phi=1", known);
-        assert.deepEqual(poor, { scene: { "start.phi": "1" }, view: { "ui.trail": "9" }, unknown: ["ui.slow=abc", "ui.settle=", "ui.camera=side", "ui.colour=constructor", "ui.arrows=field,toString"] });
+        const poor = readAddress("#v=1&ui.slow=abc&ui.settle=&ui.camera=side&ui.colour=constructor&ui.arrows=field,toString&ui.trail=9&ui.lang=tlh&start.phi=1", known);
+        assert.deepEqual(poor, { scene: { "start.phi": "1" }, view: { "ui.trail": "9" }, unknown: ["ui.slow=abc", "ui.settle=", "ui.camera=side", "ui.colour=constructor", "ui.arrows=field,toString", "ui.lang=tlh"] });
     },
     "scenes are written as festoon reads them, and read as festoon writes them"() {
         assert.deepEqual(checked(written(SCENES[0])), checked(...sets(SCENES[0])));
@@ -309,10 +385,8 @@ const scripts = {
         const preset = (id) => result(PRESETS.find((found) => found.id === id).scene);
         assert.deepEqual([preset("walker").outcome, preset("opposite").outcome], ["walker", "apart"]);
         assert.deepEqual([preset("levitation").regime, preset("bowl").regime], ["levitating", "counter-rotating"]);
-        for (const step of LESSON) {
-            assert.ok(step.answer >= 0 && step.answer < step.answers.length);
+        for (const step of LESSON)
             checked(...sets(step.scene));
-        }
         const gear = result({ "drive.frequency": 10.7 });
         assert.equal(gear.max_angle_deg.toFixed(1), "4.4");
         assert.equal(gear.festoons.toFixed(2), "4.19");
@@ -379,6 +453,57 @@ const library = {
         }
         assert.throws(() => core.setScene({ ...pair, "beads[1].start.phi": "4 deg" }), /overlap|beads/);
         core.reset();
+    },
+    "a trajectory of festoon run is played as it was recorded, in the units that it has: states, field, loads and contacts"() {
+        const csv = join(scratch, "played.csv"), near = (mine, theirs, where, most = 1e-8) => assert.ok(Math.abs(mine - theirs) < most * (1 + Math.abs(theirs)), `${where}: ${mine}, ${theirs}`);
+        const played = (scene, units) => {
+            festoon("run", ...sets(scene), "--units", units, "--csv", csv);
+            const file = readTrajectory(readFileSync(csv, "utf8"));
+            core.setScene(file.scene);
+            return recordingOf(file, core);
+        };
+        const single = { "drive.frequency": "10.7 Hz", "run.periods": 5, "run.discard": 1 };
+        for (const units of ["scaled", "lab", "si"])
+            for (const scene of [single, { ...single, "friction.law": "coulomb" }]) {
+                const rows = played(scene, units);
+                assert.equal(rows.length, 5 * 64 + 1);
+                core.setScene(scene);
+                let own = core.start();
+                const most = scene["friction.law"] ? 1e-6 : 1e-8; // the steps of this motion end elsewhere, and so where it slips
+                rows.forEach((row, i) => {
+                    if (i > 0)
+                        own = core.go(1 / 64 / 10.7, 1).rows;
+                    for (const name of ["time", "turns", "omega", "x", "y", "r", "phi", "alpha", "field", "slipSize", "spin", "load", "friction", "use", "sticks", "speed", "z", "magnet"])
+                        near(row[COLUMN[name]], own[COLUMN[name]], `${scene["friction.law"]}, ${units}, row ${i}: ${name}`, most);
+                    for (const name of ["n", "b", "nLocal"])
+                        [0, 1, 2].forEach((k) => near(row[COLUMN[name] + k], own[COLUMN[name] + k], `${units}, row ${i}: ${name} ${k}`, most));
+                });
+            }
+        const pair = { "drive.frequency": "30 Hz", "beads[0].start.phi": "3 deg", "beads[1].start.phi": "53 deg", "run.periods": 4, "run.discard": 1 };
+        const bowl = { "plate.shape": "bowl", "plate.bowl_radius": "150 mm", "run.periods": 4, "run.discard": 1 };
+        for (const [scene, units] of [[pair, "scaled"], [pair, "lab"], [bowl, "si"]]) {
+            const rows = played(scene, units), own = [];
+            core.record((row) => own.push(Array.from(row)) === 0);
+            assert.equal(rows.length, own.length);
+            rows.forEach((row, i) => row.forEach((value, k) => near(value, own[i][k], `${units}, row ${i}, column ${k}`, k === COLUMN.angle ? 1e-7 : 1e-8))); // acos of nearly 1
+        }
+        const fly = { "friction.law": "coulomb", "impact.restitution": 0.6, "drive.frequency": "80 Hz", "run.periods": 3, "run.discard": 1 }, flown = played(fly, "lab").map((row) => row[COLUMN.z]), { eps } = core.groups();
+        assert.ok(Math.min(...flown) > eps - 1e-12 && Math.max(...flown) > eps + 1e-4, "a bead that flies is seen above the plate");
+        played(bowl, "si");
+        const text = readFileSync(csv, "utf8"), refused = (change, why) => assert.throws(() => {
+            const file = readTrajectory(change(text));
+            core.setScene(file.scene);
+            recordingOf(file, core);
+        }, why);
+        const cell = (value) => (whole) => whole.replace(/^0,[^,]*/m, `0,${value}`), line = text.split("\n").findIndex((row) => row.startsWith("0,")) + 1;
+        refused(cell("nan"), new RegExp(`line ${line}: drive_turns`));
+        refused(cell("<b>"), /drive_turns must be a number/);
+        refused((whole) => whole.replace("nY_0 [1]", "nY_0 [furlong]"), /no column nY_0/);
+        refused((whole) => whole.replace(/^0,/m, "9,"), new RegExp(`line ${line + 1}: the time`));
+        refused((whole) => whole.split("\n").slice(0, line).join("\n"), /three places/);
+        refused((whole) => whole.replace("shape: bowl", "shape: bowll"), /bowl/);
+        assert.equal(readTrajectory("frame,t [s],x [mm],y [mm]\n"), null);
+        core.setScene({});
     },
     "the points of a grid are those of a sweep"() {
         const base = { "run.periods": 20, "run.discard": 10 }, axis = "drive.frequency=9:20:4", file = join(scratch, "sweep.db");
