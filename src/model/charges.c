@@ -268,31 +268,24 @@ static void count_freedom(const attempt *a, fst_map_fit *fit)
     fit->rms = sqrt(fmax(left, 0.0) / a->sums->count);
 }
 
-/* What the probe shows in no field, on its own axes, and how it is turned. */
+/* What the probe shows in no field, on its own axes, and how it is turned.  The angles are three of hundreds of
+ * unknowns: their errors add next to nothing to the others. */
 static void tell_probe(const attempt *a, const double t[9], fst_map_fit *fit)
 {
     const fst_charges *charges = a->charges;
-    const int n = charge_columns(&charges->sites), last = n - 1;
-    double fitted[3], variance[3];
-    for (int i = 0; i < 3; ++i) {
-        const int c = (i + 1) % 3, at = c * n + last;
-        const double r = charges->factor[c][(size_t)n * (size_t)n - 1], unit = charges->sites.unit;
-        fitted[i] = unit * charges->strength[at];
-        variance[i] = unit * unit * a->noise2 / (r * r);
-        for (int k = 0; k < 3; ++k)
-            for (int m = 0; m < 3; ++m)
-                variance[i] +=
-                    unit * unit * charges->covariance[k][m] * charges->turning[k][at] * charges->turning[m][at];
-        fit->turned[i] = a->angles[i];
-        fit->turned_error[i] = sqrt(charges->covariance[i][i]);
-    }
-    for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < 3; ++k) { /* T' */
-            fit->offset[i] += t[3 * k + i] * fitted[k];
-            fit->offset_error[i] += t[3 * k + i] * t[3 * k + i] * variance[k];
+    const int n = charge_columns(&charges->sites);
+    const double unit = charges->sites.unit;
+    for (int k = 0; k < 3; ++k) {
+        const int c = (k + 1) % 3; /* the class of an offset along the axis k */
+        const double fitted = unit * charges->strength[c * n + n - 1];
+        const double error = unit * fit->noise / charges->factor[c][(size_t)n * (size_t)n - 1];
+        for (int i = 0; i < 3; ++i) { /* T' */
+            fit->offset[i] += t[3 * k + i] * fitted;
+            fit->offset_error[i] = hypot(fit->offset_error[i], t[3 * k + i] * error);
         }
-    for (int i = 0; i < 3; ++i)
-        fit->offset_error[i] = sqrt(fit->offset_error[i]);
+        fit->turned[k] = a->angles[k];
+        fit->turned_error[k] = fit->noise * sqrt(a->inverse[k][k]);
+    }
 }
 
 static void conclude(attempt *a)
@@ -311,19 +304,6 @@ static void conclude(attempt *a)
     fit->chi2 = left2 / (known * known);
     fit->charges = CHARGE_CLASSES * charges->sites.count;
     fit->depth = charges->sites.depth;
-    for (int k = 0; k < 3 && a->how->probe; ++k) {
-        double step[3] = {a->angles[0], a->angles[1], a->angles[2]}, more[9];
-        step[k] += ANGLE;
-        rotation(step, t);
-        step[k] -= 2.0 * ANGLE;
-        rotation(step, more);
-        for (int i = 0; i < 9; ++i)
-            t[i] = 0.5 * (t[i] - more[i]) / ANGLE;
-        solve(a, t, charges->turning[k]);
-        for (int m = 0; m < 3; ++m)
-            charges->covariance[k][m] = a->noise2 * a->inverse[k][m];
-    }
-    rotation(a->angles, t);
     if (a->how->probe)
         tell_probe(a, t, fit);
 }
@@ -347,14 +327,12 @@ static fst_charges *new_charges(const fst_field_map *map, const fst_smoothing *h
     int whole = charges && charge_sites_make(map, how, depth, &charges->sites) == FST_OK;
     const size_t n = whole ? (size_t)charge_columns(&charges->sites) : 0;
     if (whole)
-        charges->strength = calloc(4 * CHARGE_CLASSES * n, sizeof *charges->strength);
+        charges->strength = calloc(CHARGE_CLASSES * n, sizeof *charges->strength);
     whole = whole && charges->strength;
     for (int c = 0; c < CHARGE_CLASSES && whole; ++c) {
         charges->factor[c] = calloc(n * n, sizeof **charges->factor);
         whole = charges->factor[c] != NULL;
     }
-    for (size_t k = 0; k < 3 && whole; ++k)
-        charges->turning[k] = charges->strength + (k + 1) * CHARGE_CLASSES * n;
     if (whole)
         return charges;
     fst_charges_free(charges);
@@ -454,8 +432,7 @@ void fst_charges_look(const fst_charges *charges, const double place[3], int val
                       double *errors)
 {
     const int n = charge_columns(&charges->sites);
-    const double noise2 = charges->fit.noise * charges->fit.noise;
-    double turning[CHARGE_VALUES][3] = {{0}}, variance[CHARGE_VALUES] = {0};
+    double variance[CHARGE_VALUES] = {0};
     charge_rows(&charges->sites, place, values, room);
     for (int v = 0; v < values; ++v)
         out[v] = 0.0;
@@ -465,17 +442,12 @@ void fst_charges_look(const fst_charges *charges, const double place[3], int val
             if (charges->sites.offset)
                 rows[v * n + n - 1] = 0.0; /* the probe's, and not the field's */
             out[v] += dot(n, &rows[v * n], &charges->strength[c * n]);
-            for (int k = 0; k < 3 && errors; ++k)
-                turning[v][k] += dot(n, &rows[v * n], &charges->turning[k][c * n]);
         }
         if (errors)
             solve_lower(n, charges->factor[c], rows, values, 0);
         for (int v = 0; v < values && errors; ++v)
-            variance[v] += noise2 * dot(n, &rows[v * n], &rows[v * n]);
+            variance[v] += dot(n, &rows[v * n], &rows[v * n]);
     }
-    for (int v = 0; v < values && errors; ++v) {
-        for (int k = 0; k < 3; ++k)
-            variance[v] += turning[v][k] * dot(3, charges->covariance[k], turning[v]);
-        errors[v] = sqrt(variance[v]);
-    }
+    for (int v = 0; v < values && errors; ++v)
+        errors[v] = charges->fit.noise * sqrt(variance[v]);
 }

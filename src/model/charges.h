@@ -53,9 +53,7 @@ void charge_sums_free(charge_sums *sums);
 /* The fitted charges.  factor: of each class Cholesky's R, R'R = normal matrix + ridge. */
 typedef struct fst_charges {
     charge_sites sites;
-    double *factor[CHARGE_CLASSES], *strength,
-        *turning[3];         /* strengths, and their change with the probe's angles */
-    double covariance[3][3]; /* of the angles */
+    double *factor[CHARGE_CLASSES], *strength;
     fst_map_fit fit;
 } fst_charges;
 

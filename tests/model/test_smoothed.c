@@ -103,7 +103,7 @@ static fst_model *model_over(const fst_params *p, const fst_field_map *map, doub
 /* How a smoothed map differs from the truth, up to a share of its half width; its last four samples are its rim. */
 static const double WITHIN = 0.87;
 typedef struct comparison {
-    double of_b[2], of_slope[2], count; /* shares within 1 and 2 standard errors, and places */
+    double of_b[2], of_slope[2], of_each[9][2], count; /* shares within 1 and 2 standard errors, and places */
     double force, greatest_force,
         told; /* greatest error, greatest force; mean error told of a slope, in B0/l */
 } comparison;
@@ -138,6 +138,7 @@ static void compare_at(const fst_model *models[2], double x, double y, compariso
         size += force[0][i] * force[0][i];
         for (int k = 0; k < 3; ++k) {
             count_in(g[1][i][k] - g[0][i][k], eg[i][k], c->of_slope);
+            count_in(g[1][i][k] - g[0][i][k], eg[i][k], c->of_each[3 * i + k]);
             c->told += eg[i][k] / 9.0;
         }
     }
@@ -167,6 +168,10 @@ static void check_coverage(const comparison *c)
     CHECK_WITHIN(c->of_b[1] / (3.0 * c->count), 0.93, 1.0);
     CHECK_WITHIN(c->of_slope[0] / (9.0 * c->count), 0.63, 0.9);
     CHECK_WITHIN(c->of_slope[1] / (9.0 * c->count), 0.93, 1.0);
+    for (int i = 0; i < 9; ++i) { /* errors of neighbouring places are alike */
+        CHECK_WITHIN(c->of_each[i][0] / c->count, 0.5, 0.93);
+        CHECK_WITHIN(c->of_each[i][1] / c->count, 0.88, 1.0);
+    }
 }
 
 /* ------------------------------------------------------------------ noise */
