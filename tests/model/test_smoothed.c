@@ -295,6 +295,42 @@ static void test_probe(void **unused)
     fst_field_map_free(turned);
 }
 
+/* Two planes, unlike numbers of samples, one odd, and a middle that is not the axis. */
+static void test_planes(void **unused)
+{
+    (void)unused;
+    enum { NX = 41, NY = 34, NZ = 2 };
+    static double b[3 * NX * NY * NZ];
+    const fst_params p = magnet(1);
+    const double sigma = 0.1e-3;
+    uint64_t seed = 4;
+    fst_field_samples s = {{NX, NY, NZ}, {-44e-3, -30e-3, HEIGHT}, {2e-3, 2e-3, 3e-3}, b};
+    for (int i = 0; i < NX * NY * NZ; ++i) {
+        double grad[3][3];
+        fst_model *model = model_at(&p, HEIGHT + i / (NX * NY) * s.spacing[2]);
+        fst_field(model, (s.first[0] + i % NX * s.spacing[0]) / L,
+                  (s.first[1] + i / NX % NY * s.spacing[1]) / L, &b[3 * i], grad);
+        for (int k = 0; k < 3; ++k)
+            b[3 * i + k] = fst_model_groups(model).field_unit * b[3 * i + k] + sigma * normal(&seed);
+        fst_model_free(model);
+    }
+    fst_field_map *map = map_of_samples(&s), *made = smooth(map, HEIGHT + 1.5e-3, 0);
+    const fst_map_fit fit = fst_field_map_describe(made).fit;
+    CHECK_CLOSE(fit.noise, sigma, 0.03 * sigma);
+    CHECK_CLOSE(fit.rough, sigma, 0.05 * sigma);
+    comparison c = {.count = 0.0};
+    fst_model *models[2] = {model_at(&p, HEIGHT + 1.5e-3), model_over(&p, made, HEIGHT + 1.5e-3)};
+    for (int i = 0; i < 60; ++i) {
+        const double x = uniform(&seed, -40e-3, 32e-3) / L, y = uniform(&seed, -26e-3, 32e-3) / L;
+        compare_at((const fst_model *[]){models[0], models[1]}, x, y, &c);
+    }
+    check_coverage(&c);
+    for (int m = 0; m < 2; ++m)
+        fst_model_free(models[m]);
+    fst_field_map_free(made);
+    fst_field_map_free(map);
+}
+
 /* ------------------------------------------------------------------ fields without noise, and none */
 
 /* An exact map keeps its splines; its charges know other heights nearly as well. */
@@ -382,10 +418,10 @@ static void test_stop(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_noise),   cmocka_unit_test(test_curl_and_divergence),
-        cmocka_unit_test(test_heights), cmocka_unit_test(test_probe),
-        cmocka_unit_test(test_exact),   cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_stop),
+        cmocka_unit_test(test_noise),    cmocka_unit_test(test_curl_and_divergence),
+        cmocka_unit_test(test_heights),  cmocka_unit_test(test_probe),
+        cmocka_unit_test(test_planes),   cmocka_unit_test(test_exact),
+        cmocka_unit_test(test_refusals), cmocka_unit_test(test_stop),
     };
     return cmocka_run_group_tests_name("smoothed", tests, NULL, NULL);
 }
