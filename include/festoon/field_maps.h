@@ -28,6 +28,19 @@ FST_API fst_status fst_field_map_new(const fst_field_samples *samples, const fst
 FST_API fst_field_map *fst_field_map_share(const fst_field_map *map);
 FST_API void fst_field_map_free(fst_field_map *map);
 
+/* How equivalent charges fit the samples of a map (fst_field_map_smooth()). */
+typedef struct fst_map_fit {
+    int charges;  /* how many; 0: the map's splines pass through its samples */
+    double depth; /* m: of the uppermost charges below the samples */
+    double rms;   /* T: of what is left of a component of a sample */
+    double free;  /* degrees of freedom that are left */
+    double noise; /* T: of a component, as the fit estimates it, or as told; errors are those of this noise */
+    double rough; /* T: the noise by sixth differences of neighbours alone, which see a smooth field hardly */
+    double chi2;  /* chi^2 per degree of freedom against the noise told, or against `rough` where none was */
+    double turned[3], turned_error[3]; /* rad: rotation vector of the probe's axes; 0 where it was not free */
+    double offset[3], offset_error[3]; /* T: what the probe's axes show in no field; 0 where it was not free */
+} fst_map_fit;
+
 /* What can be told of a map. */
 typedef struct fst_field_map_facts {
     int count[3];
@@ -37,8 +50,29 @@ typedef struct fst_field_map_facts {
     /* How far the samples are from a field of magnets, of which the curl of B vanishes: the rms of dBx/dy -
      * dBy/dx over the rms of all derivatives by x and y.  Noise and wrong axes make it large. */
     double curl;
+    fst_map_fit fit;
 } fst_field_map_facts;
 FST_API fst_field_map_facts fst_field_map_describe(const fst_field_map *map);
+
+typedef struct fst_smoothing {
+    double noise;  /* T: standard deviation of a component of a sample; NAN: the fit estimates it */
+    int probe;     /* whether the probe may be turned about its place and have offsets, which are fitted too */
+    double height; /* m: of the plane that is wanted */
+    double lies;   /* m: where a map lies that does not tell its height */
+} fst_smoothing;
+
+/* Fit charges below the map to its samples by regularised least squares, and make a map of their field, which has
+ * neither curl nor divergence, at a height.  FST_BAD_INPUT: an empty field, more than 100 000 samples, a height
+ * that is too near to the charges, a noise that is none, a probe whose rotation the field does not tell. */
+FST_API fst_status fst_field_map_smooth(const fst_field_map *measured, const fst_smoothing *how,
+                                        const fst_progress *progress, fst_field_map **smooth, fst_error *error);
+
+/* The standard errors of what fst_field() tells of a model over a smoothed map, in the same units.  0, and no number
+ * written: the model has no such map, or the place is beyond it. */
+FST_API int fst_field_error(const fst_model *model, double x, double y, double b[3], double grad[3][3]);
+
+/* The map of a model, borrowed; NULL: it has none. */
+FST_API const fst_field_map *fst_model_map(const fst_model *model);
 
 #ifdef __cplusplus
 }

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "cli/command.h"
+#include "cli/groups.h"
 #include "cli/terminal.h"
 
 static const option options[] = {
@@ -19,6 +20,10 @@ static const option options[] = {
     {"csv", '\0', "FILE", "write the map of the field to FILE.csv, which magnet.shape: grid reads back"},
     {"radius", '\0', "R", "how far from the axis the map of --csv goes along X and Y (60mm)"},
     {"spacing", '\0', "D", "from one sample of --csv to the next (1mm)"},
+    {"smooth", '\0', NULL,
+     "the field of charges fitted to the scene's noisy map (magnet.shape: grid), with errors"},
+    {"noise", '\0', "B", "of a component of that map, as in 0.05mT; --smooth estimates it unless given"},
+    {"probe", '\0', NULL, "--smooth also fits how the probe's axes are turned, and their offsets"},
     UNITS_OPTION,
     LOOK_OPTIONS,
     {NULL, '\0', NULL, NULL},
@@ -43,6 +48,17 @@ static void print_pull(FILE *out, const fst_model *model, const double at[2], fs
                   "on a bead with its moment along B: force %.9g %.9g %.9g %s, load on the plate %.9g %s\n",
                   unit * above_rounding(force[0], most), unit * above_rounding(force[1], most),
                   unit * above_rounding(force[2], most), name, unit * load, name);
+}
+
+/* The errors of a smoothed map's field. */
+static void print_errors(FILE *out, const fst_model *model, const double at[2], double field, double slope)
+{
+    double b[3], grad[3][3];
+    if (!fst_field_error(model, at[0], at[1], b, grad))
+        return;
+    for (int i = 0; i < 3; ++i)
+        (void)fprintf(out, "+- %c%14.3g   %16.3g %16.3g %16.3g\n", "XYZ"[i], field * b[i], slope * grad[i][0],
+                      slope * grad[i][1], slope * grad[i][2]);
 }
 
 static void print_text(FILE *out, const fst_model *model, const double at[2], const char *height,
@@ -76,6 +92,7 @@ static void print_text(FILE *out, const fst_model *model, const double at[2], co
                       slope * above_rounding(grad[i][0], steepest),
                       slope * above_rounding(grad[i][1], steepest),
                       slope * above_rounding(grad[i][2], steepest));
+    print_errors(out, model, at, field, slope);
     (void)fprintf(out, "|B| = %.9g %s\n", field * sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]), tesla);
     print_pull(out, model, at, units, &scales);
     if (!isnan(groups.field_unit))
@@ -230,6 +247,8 @@ static fst_status write_map(const arguments *given, const fst_params *params, do
 {
     double radius = 0.06, spacing = 1e-3;
     fst_model *model = NULL;
+    if (option_value(given, "smooth")) /* as far as the map goes */
+        radius = fst_field_map_describe(params->magnet_map).radius;
     fst_status status = read_metres(given, "radius", params->magnet_half_length, &radius, error);
     if (status == FST_OK)
         status = read_metres(given, "spacing", params->magnet_half_length, &spacing, error);
@@ -248,9 +267,49 @@ static fst_status write_map(const arguments *given, const fst_params *params, do
     return status;
 }
 
+/* How well charges fit a map. */
+static void print_fit(FILE *out, const fst_map_fit *fit)
+{
+    (void)fprintf(
+        out,
+        "%d charges from %.4g mm below the map on; what is left: %.4g mT rms; noise %.4g mT; chi^2 of %.0f "
+        "degrees of freedom: %.4g each%s\n",
+        fit->charges, 1e3 * fit->depth, 1e3 * fit->rms, 1e3 * fit->noise, fit->free, fit->chi2,
+        fit->chi2 > 1.2 ? "; more is left than noise: a turned probe (--probe), exchanged axes, wrong places?"
+                        : "");
+    for (int i = 0; i < 3 && fit->turned_error[0] > 0; ++i)
+        (void)fprintf(out, "probe, axis %c: turned by %.4f +- %.4f deg, offset %.4g +- %.2g mT\n", "xyz"[i],
+                      360.0 / TWO_PI * fit->turned[i], 360.0 / TWO_PI * fit->turned_error[i],
+                      1e3 * fit->offset[i], 1e3 * fit->offset_error[i]);
+}
+
+/* --smooth: the charges' map in place of the scene's. */
+static fst_status smooth_map(const arguments *given, fst_params *params, double height, fst_field_map **smooth,
+                             fst_error *error)
+{
+    const double usual = params->magnet_depth + params->bead_radius;
+    fst_smoothing how = {.noise = NAN, .lies = usual, .probe = option_value(given, "probe") != NULL};
+    how.height = isnan(height) ? usual : height * params->magnet_half_length;
+    const char *noise = option_value(given, "noise");
+    if (!params->magnet_map)
+        return fail(error, FST_BAD_INPUT, "--smooth", "the scene has no map: it is for magnet.shape: grid");
+    fst_status status = noise ? fst_parse_value(noise, FST_UNIT_FIELD, &how.noise, error) : FST_OK;
+    if (status != FST_OK)
+        return fail(error, FST_BAD_INPUT, "--noise", "\"%.40s\" must be a field with its unit, as in 0.05mT",
+                    noise);
+    progress_line line;
+    const fst_progress progress = {&line, progress_tell};
+    progress_begin(&line);
+    status = fst_field_map_smooth(params->magnet_map, &how, &progress, smooth, error);
+    progress_end(&line);
+    params->magnet_map = status == FST_OK ? *smooth : params->magnet_map;
+    return status;
+}
+
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     fst_params params;
+    fst_field_map *smooth = NULL;
     const char *at = option_value(given, "at"), *figure = option_value(given, "output");
     const char *csv = option_value(given, "csv");
     if (!at && !figure && !csv)
@@ -266,6 +325,9 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
                     "--radius and --spacing are those of a written map: give --csv");
     if (option_value(given, "quantity") && !figure)
         return fail(error, FST_BAD_INPUT, "--quantity", "it is that of a map: give -o FIG.svg");
+    if ((option_value(given, "noise") || option_value(given, "probe")) && !option_value(given, "smooth"))
+        return fail(error, FST_BAD_INPUT, "--smooth",
+                    "--noise and --probe are of a fit to a map: give --smooth");
     fst_shown_units units;
     int quantity = FST_FIELD_STRENGTH;
     fst_field_options map = fst_default_field_options();
@@ -278,6 +340,12 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         status = read_scene(given, operand(given), &params, error);
     if (status == FST_OK)
         status = read_height(option_value(given, "height"), &params, &map.height, error);
+    if (status == FST_OK && option_value(given, "smooth"))
+        status = smooth_map(given, &params, map.height, &smooth, error);
+    if (status == FST_OK && smooth && !option_value(given, "json")) {
+        const fst_map_fit fit = fst_field_map_describe(smooth).fit;
+        print_fit(out, &fit);
+    }
     if (units == FST_SHOWN_AS_GIVEN)
         units = FST_SHOWN_SCALED;
     if (status == FST_OK && at)
@@ -291,6 +359,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         tell_written(figure, "");
     if (status == FST_OK && csv)
         status = write_map(given, &params, map.height, csv, error);
+    fst_field_map_free(smooth);
     return status;
 }
 

@@ -355,6 +355,35 @@ static void put_pull(fst_json *json, const fst_model *model, double x, double y,
     fst_json_real(json, "load_newtons", newton * load);
 }
 
+/* The errors of a smoothed map's field, and its fit in SI. */
+static void put_errors(fst_json *json, const fst_model *model, double x, double y, int in_si)
+{
+    double b[3], grad[3][3];
+    const fst_groups g = fst_model_groups(model);
+    if (!fst_field_error(model, x, y, b, grad))
+        return;
+    const fst_map_fit fit = fst_field_map_describe(fst_model_map(model)).fit;
+    put_field(json, b, grad, 1.0, 1.0, "b_error", "grad_error");
+    if (in_si)
+        put_field(json, b, grad, g.field_unit, g.field_unit / g.length_unit, "b_error_tesla",
+                  "grad_error_tesla_per_m");
+    fst_json_open(json, "fit", '{');
+    fst_json_integer(json, "charges", fit.charges);
+    fst_json_real(json, "depth_m", fit.depth);
+    fst_json_real(json, "rms_tesla", fit.rms);
+    fst_json_real(json, "noise_tesla", fit.noise);
+    fst_json_real(json, "rough_noise_tesla", fit.rough);
+    fst_json_real(json, "degrees_of_freedom", fit.free);
+    fst_json_real(json, "chi2_per_degree", fit.chi2);
+    if (fit.turned_error[0] > 0) {
+        fst_json_reals(json, "probe_turned_rad", fit.turned, 3);
+        fst_json_reals(json, "probe_turned_error_rad", fit.turned_error, 3);
+        fst_json_reals(json, "probe_offset_tesla", fit.offset, 3);
+        fst_json_reals(json, "probe_offset_error_tesla", fit.offset_error, 3);
+    }
+    fst_json_close(json);
+}
+
 char *fst_field_json(const fst_model *model, double x, double y, fst_shown_units units)
 {
     double b[3], grad[3][3];
@@ -368,6 +397,7 @@ char *fst_field_json(const fst_model *model, double x, double y, fst_shown_units
     if (in_si)
         put_field(&json, b, grad, g.field_unit, g.field_unit / g.length_unit, "b_tesla", "grad_tesla_per_m");
     put_pull(&json, model, x, y, in_si);
+    put_errors(&json, model, x, y, in_si);
     return fst_json_end(&json, JSON_INDENT(2));
 }
 

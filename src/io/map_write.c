@@ -17,11 +17,40 @@ static double milli(double value)
     return fst_number_read(text, fst_number_length(text), 3);
 }
 
-static void write_number(FILE *out, double value, char behind)
+static void write_number(FILE *out, double value, const char *behind)
 {
     char text[40];
     (void)fst_number_write(text, sizeof text, value);
-    (void)fprintf(out, "%s%c", text, behind);
+    (void)fprintf(out, "%s%s", text, behind);
+}
+
+/* The errors of B, of a smoothed map alone, in columns that readers of maps pass over. */
+static void write_errors(FILE *out, const fst_model *model, double x, double y, double unit, double slope)
+{
+    double b[3], grad[3][3], square = 0.0;
+    if (!fst_field_error(model, x, y, b, grad))
+        return;
+    for (int k = 0; k < 3; ++k) {
+        for (int i = 0; i < 3; ++i)
+            square += grad[k][i] * grad[k][i];
+        (void)fprintf(out, ",%.3g", b[k] * unit);
+    }
+    (void)fprintf(out, ",%.3g", slope * sqrt(square / 9.0));
+}
+
+static void write_head(FILE *out, const fst_model *model)
+{
+    const fst_field_map *map = fst_model_map(model);
+    const fst_map_fit fit = map ? fst_field_map_describe(map).fit : (fst_map_fit){.charges = 0};
+    (void)fprintf(out, "# The field of a magnet in its own frame, z over its reference plane\n");
+    if (fit.charges)
+        (void)fprintf(
+            out,
+            "# of %d charges from %.4g mm below a map on, noise %.4g mT, chi^2 of %.0f degrees of freedom: "
+            "%.4g each\n",
+            fit.charges, 1e3 * fit.depth, 1e3 * fit.noise, fit.free, fit.chi2);
+    (void)fprintf(out, "x [mm],y [mm],z [mm],Bx [mT],By [mT],Bz [mT]%s\n",
+                  fit.charges ? ",eBx [mT],eBy [mT],eBz [mT],e_slope [mT/mm]" : "");
 }
 
 fst_status fst_field_map_write(const char *path, const fst_model *model, double radius, double spacing,
@@ -46,17 +75,19 @@ fst_status fst_field_map_write(const char *path, const fst_model *model, double 
         return status;
     const int most = (int)steps;
     const double height = g.h * g.length_unit;
-    (void)fprintf(file.stream, "# The field of a magnet in its own frame, z over its reference plane\n"
-                               "x [mm],y [mm],z [mm],Bx [mT],By [mT],Bz [mT]\n");
+    write_head(file.stream, model);
     for (int j = -most; j <= most && status == FST_OK; ++j) {
         for (int i = -most; i <= most; ++i) {
             double b[3], grad[3][3];
             const double place[3] = {i * milli(spacing), j * milli(spacing), milli(height)};
             fst_field(model, i * spacing / g.length_unit, j * spacing / g.length_unit, b, grad);
             for (int k = 0; k < 3; ++k)
-                write_number(file.stream, place[k], ',');
+                write_number(file.stream, place[k], ",");
             for (int k = 0; k < 3; ++k)
-                write_number(file.stream, milli(b[k] * g.field_unit), k < 2 ? ',' : '\n');
+                write_number(file.stream, milli(b[k] * g.field_unit), k < 2 ? "," : "");
+            write_errors(file.stream, model, i * spacing / g.length_unit, j * spacing / g.length_unit,
+                         1e3 * g.field_unit, g.field_unit / g.length_unit);
+            (void)fputc('\n', file.stream);
         }
         status = fst_tell(progress, (j + most) / (2.0 * most + 1.0), "writing the map", error);
     }

@@ -30,7 +30,9 @@ struct fst_field_map {
     fst_field_map_facts facts;
     int plane_count;
     fst_map_plane *planes;
-    double *coefficients; /* of all planes */
+    double *coefficients;        /* of all planes */
+    struct fst_charges *charges; /* of a smoothed map, and what frees them */
+    void (*free_charges)(struct fst_charges *charges);
 };
 
 static const char PLACE[] = "fst_field_map_new";
@@ -158,6 +160,18 @@ static fst_status fit_plane(const band bands[2], const fst_map_plane *plane, dou
 }
 
 /* ------------------------------------------------------------------ what is known of a map */
+
+void fst_map_sample(const fst_map_plane *plane, int i, int j, double b[3])
+{
+    b[0] = b[1] = b[2] = 0.0;
+    for (int l = 0; l < 7; ++l)
+        for (int k = 0; k < 7; ++k)
+            for (int c = 0; c < 3; ++c)
+                b[c] += AT_NODES[l] / 5040.0 * (AT_NODES[k] / 5040.0) *
+                        plane->coefficients[((size_t)(j + l) * (size_t)plane->stride + (size_t)(i + k)) *
+                                                FST_MAP_COMPONENTS +
+                                            (size_t)c];
+}
 
 /* The derivatives of the component c by x and y at a sample. */
 static void slopes_at(const fst_map_plane *plane, int i, int j, int c, double slopes[2])
@@ -340,6 +354,8 @@ void fst_field_map_free(fst_field_map *map)
 {
     if (!map || atomic_fetch_sub(&map->owners, 1) > 1)
         return;
+    if (map->charges)
+        map->free_charges(map->charges);
     free(map->planes);
     free(map->coefficients);
     free(map);
@@ -368,4 +384,22 @@ const fst_map_plane *fst_map_plane_at(const fst_field_map *map, double height)
 double fst_map_nearest_height(const fst_field_map *map, double height)
 {
     return nearest_plane(map, height)->height;
+}
+
+const fst_map_plane *fst_map_plane_number(const fst_field_map *map, int number)
+{
+    return &map->planes[number];
+}
+
+void fst_map_own_charges(fst_field_map *map, struct fst_charges *charges,
+                         void (*free_charges)(struct fst_charges *charges), const fst_map_fit *fit)
+{
+    map->charges = charges;
+    map->free_charges = free_charges;
+    map->facts.fit = *fit;
+}
+
+const struct fst_charges *fst_map_charges(const fst_field_map *map)
+{
+    return map->charges;
 }

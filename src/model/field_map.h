@@ -32,4 +32,14 @@ const fst_map_plane *fst_map_plane_at(const fst_field_map *map, double height);
 /* The nearest plane's height, for messages; NAN: not known. */
 double fst_map_nearest_height(const fst_field_map *map, double height);
 
+/* The plane `number`, from 0, and its sample (i, j), which the splines pass through. */
+const fst_map_plane *fst_map_plane_number(const fst_field_map *map, int number);
+void fst_map_sample(const fst_map_plane *plane, int i, int j, double b[3]);
+
+/* The charges of a smoothed map, or NULL; and to give them to it, which frees them with itself. */
+struct fst_charges;
+const struct fst_charges *fst_map_charges(const fst_field_map *map);
+void fst_map_own_charges(fst_field_map *map, struct fst_charges *charges,
+                         void (*free_charges)(struct fst_charges *charges), const fst_map_fit *fit);
+
 #endif

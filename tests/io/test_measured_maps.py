@@ -4,7 +4,9 @@
 tests: io/map_file.c io/map_csv.c io/map_points.c io/map_vtk.c io/map_hdf5.c io/hdf5_map.c io/map_write.c"""
 
 import json
+import math
 import os
+import random
 import struct
 import unittest
 
@@ -213,6 +215,77 @@ class Tables(Maps):
                                     "--json"))
         for a, b in zip(high["b"], self.field(self.map)["b"]):
             self.assertAlmostEqual(a, 2 * b, delta=1e-11)
+
+
+class Smooth(Maps):
+    """field --smooth: charges below a noisy map, whose field is written as a map, or told with its errors."""
+
+    def setUp(self):
+        super().setUp()
+        chance = random.Random(5)
+        self.noise = 0.0025 * max(math.hypot(*row[3:]) for row in self.rows)
+        rows = [row[:3] + [b + chance.gauss(0, self.noise) for b in row[3:]] for row in self.rows]
+        self.noisy = self.write("noisy.csv", "\n".join([HEAD] + [",".join(map(repr, row)) for row in rows]))
+
+    def told(self, *words):
+        return json.loads(self.good("field", *self.over(self.noisy), "--smooth", "--at", "0.43,-0.61", "--json",
+                                    "--units", "si", *words))
+
+    def test_errors(self):
+        told, exact = self.told(), self.field(self.map)
+        for key, error in (("b", told["b_error"]), ("grad", sum(told["grad_error"], []))):
+            there = exact[key] if key == "b" else sum(exact[key], [])
+            found = told[key] if key == "b" else sum(told[key], [])
+            for a, b, e in zip(there, found, error):
+                self.assertLess(abs(a - b), 3.5 * e)
+        self.assertAlmostEqual(told["b_error_tesla"][0], 0.01 * told["b_error"][0], delta=1e-12)
+        self.assertAlmostEqual(told["fit"]["noise_tesla"], 1e-3 * self.noise, delta=0.06e-3 * self.noise)
+        self.assertNotIn("probe_turned_rad", told["fit"])
+        self.assertNotIn("fit", self.field(self.noisy))
+        text = self.good("field", *self.over(self.noisy), "--smooth", "--at", "0.43,-0.61", "--units", "lab")
+        self.assertIn("+- X", text)
+        self.assertRegex(text, r"^\d+ charges from .* mm below the map on; .* chi\^2 of \d+ degrees")
+        free = self.told("--probe", "--noise", f"{self.noise} mT")["fit"]
+        self.assertAlmostEqual(free["noise_tesla"], 1e-3 * self.noise, delta=0.06e-3 * self.noise)
+        for turned, error in zip(free["probe_turned_rad"], free["probe_turned_error_rad"]):
+            self.assertLess(abs(turned), 3.5 * error)
+
+    def test_a_written_map_is_one(self):
+        """Other heights too; and a noise that was told too small is known by what is left."""
+        name = self.path("smooth.csv")
+        text = self.good("field", *self.over(self.noisy), "--smooth", "--csv", name, "--spacing", "3mm")
+        self.assertIn("charges", text)
+        with open(name) as file:
+            lines = file.read().splitlines()
+        self.assertIn("charges", lines[1])
+        self.assertEqual(lines[2], HEAD + ",eBx [mT],eBy [mT],eBz [mT],e_slope [mT/mm]")
+        self.assertEqual({len(line.split(",")) for line in lines[2:]}, {10})
+        self.assertEqual(len(lines), 3 + len(self.rows))
+        self.assertLess(json.loads(self.good("check", *self.over(name), "--json"))["map"]["curl"], 1e-3)
+        self.assertIn("--smooth", self.good("check", *self.over(self.noisy)))
+        run = json.loads(self.good("run", *self.over(name, *SHORT), "--json"))
+        exact = json.loads(self.good("run", *B0, *SHORT, "--json"))
+        self.assertAlmostEqual(run["mean_r"], exact["mean_r"], delta=0.01 * exact["mean_r"])
+        for height in ("16.7mm", "24mm"):
+            high = self.told("--height", height)
+            there = json.loads(self.good("field", *B0, "--height", height, "--at", "0.43,-0.61", "--json"))
+            for a, b, e in zip(there["b"], high["b"], high["b_error"]):
+                self.assertLess(abs(a - b), 3.5 * e)
+        small = self.told("--noise", f"{0.5 * self.noise} mT")["fit"]
+        self.assertGreater(small["chi2_per_degree"], 3)
+        self.assertGreater(small["noise_tesla"], 0.9e-3 * self.noise)
+
+    def test_what_is_wrong(self):
+        at = ["--at", "0,0"]
+        for words, sentence in (([*self.over(self.noisy), "--probe", *at], "give --smooth"),
+                                ([*self.over(self.noisy), "--noise", "1mT", *at], "give --smooth"),
+                                ([*self.over(self.noisy), "--smooth", "--noise", "much", *at], "as in 0.05mT"),
+                                ([*self.over(self.noisy), "--smooth", "--noise", "9T", *at], "a positive field"),
+                                ([*self.over(self.noisy), "--smooth", "--height", "1mm", *at], "too near"),
+                                ([*B0, "--smooth", *at], "has no map")):
+            status, out, err = festoon("field", *words)
+            self.assertEqual((status, out), (2, ""), err)
+            self.assertIn(sentence, err)
 
 
 class Vtk(Maps):

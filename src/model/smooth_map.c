@@ -1,0 +1,129 @@
+/* smooth_map.c - from a measured map to the map of charges that fit it, at any height, and the errors of its field.
+ *
+ * A bead's steps never see the charges: their field is sampled so finely that the splines of the new map add less
+ * than a millionth to it, and runs keep the speed of maps.
+ */
+#include "model/charges.h"
+#include "model/model.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/error.h"
+#include "base/watch.h"
+
+static const char PLACE[] = "fst_field_map_smooth";
+
+static fst_status check(const fst_field_map *map, const fst_smoothing *how, fst_error *error)
+{
+    const fst_field_map_facts facts = fst_field_map_describe(map);
+    const double samples = (double)facts.count[0] * facts.count[1] * facts.count[2];
+    const int most = 100000;
+    if (samples > most)
+        return fst_fail(
+            error, FST_BAD_INPUT, PLACE,
+            "the map has %.0f samples: charges are fitted to %d at most; leave every second row and "
+            "column out",
+            samples, most);
+    if (!(facts.greatest > 0))
+        return fst_fail(error, FST_BAD_INPUT, PLACE, "the field of the map is zero everywhere");
+    if (!isnan(how->noise) && !(how->noise > 0 && how->noise <= facts.greatest))
+        return fst_fail(
+            error, FST_BAD_INPUT, PLACE,
+            "the noise is %g T, where a positive field below the map's greatest of %g T is expected",
+            how->noise, facts.greatest);
+    if (!isfinite(how->height) || (isnan(facts.first[2]) && !isfinite(how->lies)))
+        return fst_fail(error, FST_BAD_INPUT, PLACE, "the height of the map or of the plane is not known");
+    return FST_OK;
+}
+
+/* The field of charges on a plane, over the map's samples' rectangle. */
+static fst_status sample(const fst_charges *charges, fst_field_samples *samples, double *b,
+                         const fst_progress *progress, fst_error *error)
+{
+    double *room = fst_charges_room(charges);
+    fst_status status = room ? FST_OK : fst_fail(error, FST_NO_MEMORY, PLACE, "out of memory");
+    for (int j = 0; j < samples->count[1] && status == FST_OK; ++j) {
+        for (int i = 0; i < samples->count[0]; ++i) {
+            const double place[3] = {samples->first[0] + i * samples->spacing[0],
+                                     samples->first[1] + j * samples->spacing[1], samples->first[2]};
+            fst_charges_look(charges, place, 3, room, &b[3 * (j * samples->count[0] + i)], NULL);
+        }
+        status = fst_tell(progress, (j + 1.0) / samples->count[1], "the field of the charges", error);
+    }
+    free(room);
+    samples->b = b;
+    return status;
+}
+
+static fst_status make_map(const fst_field_map *measured, const fst_charges *charges, double height,
+                           const fst_progress *progress, fst_field_map **smooth, fst_error *error)
+{
+    const fst_field_map_facts facts = fst_field_map_describe(measured);
+    const double bottom = isnan(facts.first[2]) ? charges->sites.lies : facts.first[2];
+    const double over = height - (bottom - charges->fit.depth), finest = over / 6.0;
+    fst_field_samples samples = {.count = {0, 0, 1}, .first = {facts.first[0], facts.first[1], height}};
+    if (!(over >= 0.5 * charges->fit.depth))
+        return fst_fail(
+            error, FST_BAD_INPUT, PLACE,
+            "the height of %.6g mm is too near to the charges, which are %.6g mm below the map: from "
+            "%.6g mm on their field is known",
+            1e3 * height, 1e3 * charges->fit.depth, 1e3 * (bottom - 0.5 * charges->fit.depth));
+    for (int axis = 0; axis < 2; ++axis) {
+        const int times = (int)ceil(facts.spacing[axis] / finest);
+        samples.count[axis] = (facts.count[axis] - 1) * times + 1;
+        samples.spacing[axis] = facts.spacing[axis] / times;
+    }
+    double *b = calloc(3 * (size_t)samples.count[0] * (size_t)samples.count[1], sizeof *b);
+    fst_status status = b ? sample(charges, &samples, b, progress, error)
+                          : fst_fail(error, FST_NO_MEMORY, PLACE, "out of memory");
+    if (status == FST_OK)
+        status = fst_field_map_new(&samples, NULL, smooth, error);
+    free(b);
+    return status;
+}
+
+fst_status fst_field_map_smooth(const fst_field_map *measured, const fst_smoothing *how,
+                                const fst_progress *progress, fst_field_map **smooth, fst_error *error)
+{
+    fst_charges *charges = NULL;
+    const fst_part parts[2] = {{progress, 0.0, 0.9, NULL}, {progress, 0.9, 1.0, NULL}};
+    const fst_progress told[2] = {{(void *)(uintptr_t)&parts[0], fst_part_tell},
+                                  {(void *)(uintptr_t)&parts[1], fst_part_tell}};
+    *smooth = NULL;
+    fst_status status = check(measured, how, error);
+    if (status == FST_OK)
+        status = fst_charges_fit(measured, how, &told[0], &charges, error);
+    if (status == FST_OK)
+        status = make_map(measured, charges, how->height, &told[1], smooth, error);
+    if (status == FST_OK)
+        fst_map_own_charges(*smooth, charges, fst_charges_free, &charges->fit);
+    else
+        fst_charges_free(charges);
+    return status;
+}
+
+int fst_field_error(const fst_model *model, double x, double y, double b[3], double grad[3][3])
+{
+    static const int of[3][3] = {{3, 4, 5}, {4, 6, 7}, {5, 7, 8}};
+    const fst_groups *g = &model->groups;
+    const fst_charges *charges = model->map ? fst_map_charges(model->map) : NULL;
+    double out[CHARGE_VALUES], errors[CHARGE_VALUES], here[3], *room;
+    const double place[3] = {x * g->length_unit, y * g->length_unit, g->h * g->length_unit};
+    fst_field(model, x, y, here, grad);
+    if (!charges || isnan(here[0]) || !(room = fst_charges_room(charges)))
+        return 0;
+    fst_charges_look(charges, place, CHARGE_VALUES, room, out, errors);
+    free(room);
+    for (int i = 0; i < 3; ++i) {
+        b[i] = errors[i] / g->field_unit;
+        for (int k = 0; k < 3; ++k)
+            grad[i][k] = errors[of[i][k]] / g->field_unit * g->length_unit;
+    }
+    return 1;
+}
+
+const fst_field_map *fst_model_map(const fst_model *model)
+{
+    return model->map;
+}
