@@ -26,7 +26,7 @@
 
 #include "base/dot.h"
 #include "base/error.h"
-#include "ode/flow.h"
+#include "ode/flight.h"
 
 enum { SPECTRUM_WORK = 100 }; /* of LAPACK on a matrix of this size, in evaluations of the equations */
 
@@ -253,9 +253,11 @@ fst_status fst_solution_chain(const fst_family *family, fst_solution *s, int seg
     fst_flow *flow;
     fst_status status = fst_solution_flow(family, s->value, s->y[0], family->tolerance, &model, &flow, error);
     s->segments = segments;
-    for (int i = 1; i < segments && status == FST_OK; ++i) {
+    for (int i = 1; i < s->segments && status == FST_OK; ++i) {
         status = fst_solution_advance(family, flow, s->period * i / segments, error);
         memcpy(s->y[i], flow->step.end, sizeof s->y[i]);
+        if (fst_flight_is_on(flow)) /* which is no state: one segment has none but the first */
+            s->segments = 1;
     }
     fst_flow_free(flow);
     fst_model_free(model);
