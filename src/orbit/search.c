@@ -117,41 +117,6 @@ static fst_status correct(search *s, fst_solution *guess, fst_error *error)
     return status;
 }
 
-/* A bead that flies is no state: the orbit's first one moves to the middle of the longest time on the plate. */
-static fst_status keep_to_plate(const search *s, fst_solution *guess, fst_error *error)
-{
-    fst_model *model;
-    fst_flow *flow;
-    double touched = 0.0, longest = 0.0, middle = 0.0;
-    fst_status status =
-        fst_solution_flow(s->family, guess->value, guess->y[0], SEARCH_TOLERANCE, &model, &flow, error);
-    while (status == FST_OK && flow->t.high < 1.5 * guess->period) {
-        status = fst_flow_step(flow, 1.5 * guess->period, error);
-        if (status == FST_OK)
-            status = fst_watch_count(s->family->watch, FST_FLOW_STEP_WORK, error);
-        if (fst_flight_is_on(flow))
-            touched = flow->t.high;
-        else if (flow->t.high - touched > longest) {
-            longest = flow->t.high - touched;
-            middle = touched + 0.5 * longest;
-        }
-    }
-    const int flies = status == FST_OK && flow->contact.impacts > 0;
-    fst_flow_free(flow);
-    fst_model_free(model);
-    if (!flies)
-        return status;
-    guess->on_section = 0;
-    status = fst_solution_flow(s->family, guess->value, guess->y[0], SEARCH_TOLERANCE, &model, &flow, error);
-    if (status == FST_OK)
-        status = fst_solution_advance(s->family, flow, middle, error);
-    if (status == FST_OK)
-        memcpy(guess->y[0], flow->step.end, sizeof guess->y[0]);
-    fst_flow_free(flow);
-    fst_model_free(model);
-    return status;
-}
-
 /* Newton's method from a guess.  The orbit is the one that the bead approaches if it attracts, and if the bead
  * is as far from it as its last return `gap` says: a return moves the bead by (1 - rho) of its distance, rho
  * being the greatest multiplier. */
@@ -161,7 +126,7 @@ static int polish(search *s, fst_solution *guess, double gap, fst_error *error)
     const double period = guess->period;
     s->attempts += 1;
     s->at_rest = s->leaves = 0;
-    if (s->model->world.kinds.flies && keep_to_plate(s, guess, error) != FST_OK)
+    if (fst_solution_keep_to_plate(s->family, guess, error) != FST_OK)
         return 0;
     memcpy(start, guess->y[0], sizeof start);
     if (fst_solution_chain(s->family, guess, guess->symmetric ? 1 : 2, error) != FST_OK ||
