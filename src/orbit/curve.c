@@ -145,7 +145,7 @@ static int has_ended(fst_curve *curve, const fst_node *start, const fst_node *he
     return 1;
 }
 
-/* Dry friction: over a kink of the curve, where an orbit gains or loses a rest, Newton's method finds the other
+/* Dry friction: over a kink of the curve, where an orbit gains or loses a rest or a flight, Newton's method finds the other
  * side from here, but no continuation does.  1 if there is one, at the distance *h. */
 static int leap(const fst_curve *curve, const fst_node *here, fst_node *next, double *h, int *left)
 {
