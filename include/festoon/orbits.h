@@ -249,7 +249,7 @@ typedef struct fst_lyapunov {
     int converged;      /* every exponent has a sure sign, or is zero within an error below 1e-4 */
     int flow_direction; /* the index of the exponent that belongs to the flow; -1 at an equilibrium */
     double divergence;  /* the mean divergence of the flow, measured independently; it equals the sum of the
-                           exponents */
+                           exponents; NAN where the bead flew, because impacts contract too */
     double time;        /* the time over which they are averaged */
     int trace_count;
     double trace_time[FST_LYAPUNOV_TRACE], trace[FST_LYAPUNOV_TRACE][FST_EIGENVALUE_COUNT]; /* running means */

@@ -354,7 +354,7 @@ class Lyapunov(Told):
         self.converged = bool(found.converged)
         #: The index of the exponent of the flow; None at an equilibrium.
         self.flow_direction = int(found.flow_direction) if found.flow_direction >= 0 else None
-        #: The mean divergence of the flow, which equals the sum of the exponents.
+        #: The mean divergence of the flow, which equals the sum of the exponents; NaN where the bead flew, because impacts contract too.
         self.divergence = float(found.divergence)
         self.time = float(found.time)
         count = found.trace_count

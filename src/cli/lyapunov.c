@@ -18,8 +18,12 @@ static void print_spectrum(FILE *out, const fst_lyapunov *l)
         (void)fprintf(out, "  %14.9f +- %.2g%s\n", unsigned_zero(l->exponents[i], 9), l->errors[i],
                       i == l->flow_direction ? "   (the flow direction: zero)" : "");
     }
-    (void)fprintf(out, "  sum %.9f, mean divergence of the flow %.9f\n", unsigned_zero(sum, 9),
-                  unsigned_zero(l->divergence, 9));
+    if (isnan(l->divergence))
+        (void)fprintf(out, "  sum %.9f (the bead flew, and impacts have no divergence)\n",
+                      unsigned_zero(sum, 9));
+    else
+        (void)fprintf(out, "  sum %.9f, mean divergence of the flow %.9f\n", unsigned_zero(sum, 9),
+                      unsigned_zero(l->divergence, 9));
 }
 
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)

@@ -41,16 +41,12 @@ FN(linearise)(const FN(world) * c, const FN(modes) * m, REAL omega, const REAL *
     FN(dynamics)(c, m, omega, y, &p, dy);
 }
 
-/* dF, and in `turning` ds B + s dB, as the place and n change. */
-static inline void FN(pull_change)(const FN(world) * c, const FN(linear) * l, const REAL *y,
-                                   const REAL *tangent, REAL force[3], REAL turning[3])
+/* dF, and in `turning` ds B + s dB, as the field changes by db, its gradient by dg, and n by dn. */
+static inline void FN(pull_change_by)(const FN(world) * c, const FN(linear) * l, const REAL *n, const REAL *dn,
+                                      const REAL db[3], const FN(gradient) * dg, REAL force[3], REAL turning[3])
 {
-    const REAL *n = y + FST_NX, *dn = tangent + FST_NX, *b = l->at.b, s = l->strength;
-    const REAL ex = tangent[FST_X], ey = tangent[FST_Y];
-    FN(gradient) dg;
-    REAL db[3], du[3], gdu[3];
-    FN(field_change)(&l->at.gradient, ex, ey, db);
-    FN(gradient_change)(&l->at.bend, ex, ey, &dg);
+    const REAL *b = l->at.b, s = l->strength;
+    REAL du[3], gdu[3];
     if (c->kinds.magnetisable) {
         const REAL ds =
             c->twice_b * SUM_6(dn[0], b[0], dn[1], b[1], dn[2], b[2], n[0], db[0], n[1], db[1], n[2], db[2]);
@@ -65,9 +61,21 @@ static inline void FN(pull_change)(const FN(world) * c, const FN(linear) * l, co
         }
     }
     FN(times_gradient)(&l->at.gradient, du, gdu);
-    FN(times_gradient)(&dg, l->dipole, force);
+    FN(times_gradient)(dg, l->dipole, force);
     for (int i = 0; i < 3; ++i)
         force[i] = force[i] + gdu[i];
+}
+
+/* The same as the place and n change. */
+static inline void FN(pull_change)(const FN(world) * c, const FN(linear) * l, const REAL *y,
+                                   const REAL *tangent, REAL force[3], REAL turning[3])
+{
+    const REAL ex = tangent[FST_X], ey = tangent[FST_Y];
+    FN(gradient) dg;
+    REAL db[3];
+    FN(field_change)(&l->at.gradient, ex, ey, db);
+    FN(gradient_change)(&l->at.bend, ex, ey, &dg);
+    FN(pull_change_by)(c, l, y + FST_NX, tangent + FST_NX, db, &dg, force, turning);
 }
 
 /* farago2020: the change of (W.n) W x n. */
@@ -131,14 +139,14 @@ static inline void FN(dry_change)(const FN(world) * c, const FN(linear) * l, con
             FN(coulomb_pivoting_change)(&c->law.coulomb, &l->contact, by, turning[2] + lost[2] / c->torque);
 }
 
-/* The change of d(state)/dt along `tangent` at the state that was linearised. */
-static inline void FN(change_along)(const FN(world) * c, REAL omega, const REAL *y, const FN(linear) * l,
-                                    const REAL *tangent, REAL *change)
+/* The change of d(state)/dt along `tangent` at the state that was linearised, where pull_change() is known. */
+static inline void FN(change_by_pull)(const FN(world) * c, REAL omega, const REAL *y, const FN(linear) * l,
+                                      const REAL *tangent, const REAL force[3], const REAL turning[3],
+                                      REAL *change)
 {
     const REAL *n = y + FST_NX, *w = y + FST_WX, *dn = tangent + FST_NX, *dw = tangent + FST_WX;
-    REAL force[3], friction[2], turning[3], twist[3], torque[3], dwxn[3];
+    REAL friction[2], twist[3], torque[3], dwxn[3];
     FN(contact) by;
-    FN(pull_change)(c, l, y, tangent, force, turning);
     FN(slip)(c, tangent, by.slip);
     by.load = -force[2];
     by.push[0] = by.push[1] = by.torque[0] = by.torque[1] = by.torque[2] = by.pivot = R(0.0);
@@ -168,6 +176,34 @@ static inline void FN(change_along)(const FN(world) * c, REAL omega, const REAL 
     if (HAS(c->kinds, resists))
         FN(keep_at_rest)(c, l->contact.modes, change);
 }
+
+/* The same, from the tangent vector alone. */
+static inline void FN(change_along)(const FN(world) * c, REAL omega, const REAL *y, const FN(linear) * l,
+                                    const REAL *tangent, REAL *change)
+{
+    REAL force[3], turning[3];
+    FN(pull_change)(c, l, y, tangent, force, turning);
+    FN(change_by_pull)(c, omega, y, l, tangent, force, turning, change);
+}
+
+#ifdef REAL_IS_SCALAR
+/* The same of all numbers of a bead in the air (contact/modes.inl). */
+static inline void FN(change_aloft)(const FN(world) * c, REAL omega, const REAL *y, const FN(linear) * l,
+                                    const REAL *tangent, REAL *change)
+{
+    const REAL ex = tangent[FST_X], ey = tangent[FST_Y];
+    FN(gradient) dg;
+    REAL db[3], force[3], turning[3];
+    FN(field_change)(&l->at.gradient, ex, ey, db);
+    FN(gradient_change)(&l->at.bend, ex, ey, &dg);
+    FN(add_rise)(&l->at, tangent[FST_HEIGHT], db, &dg);
+    FN(pull_change_by)(c, l, y + FST_NX, tangent + FST_NX, db, &dg, force, turning);
+    FN(change_by_pull)(c, omega, y, l, tangent, force, turning, change);
+    change[FST_STEP_TIME] = R(0.0);
+    change[FST_HEIGHT] = tangent[FST_CLIMB];
+    change[FST_CLIMB] = force[2];
+}
+#endif
 
 /* d(state)/dt at the drive `omega`, and its change along `tangent`. */
 static inline void FN(rhs_and_tangent)(const FN(world) * c, const FN(modes) * m, REAL omega, const REAL *y,

@@ -35,6 +35,13 @@ void fst_flight_begin(double *state, double climb)
     state[FST_CLIMB] = climb;
 }
 
+double fst_impact_leaves(const fst_world_double *c, double s2, double normal, double *impulse)
+{
+    const double s = sqrt(s2);
+    *impulse = fmin(fst_coulomb_mu_double(&c->law.coulomb, s2) * normal, c->share * s);
+    return s > 0 ? 1.0 - c->yielding * *impulse / s : 0.0;
+}
+
 int fst_flight_impact(fst_flow *flow, double *state)
 {
     const fst_world_double *c = fst_flow_world(flow);
@@ -47,8 +54,8 @@ int fst_flight_impact(fst_flow *flow, double *state)
     fst_magnetic_pull_double(c, m, state, &p);
     const fst_contact_double at = fst_contact_of_double(c, m, state, &p);
     const double s2 = at.slip[0] * at.slip[0] + at.slip[1] * at.slip[1], s = sqrt(s2);
-    const double tangential = fmin(fst_coulomb_mu_double(&c->law.coulomb, s2) * normal, c->share * s);
-    const double left = s > 0 ? 1.0 - c->yielding * tangential / s : 0.0;
+    double tangential;
+    const double left = fst_impact_leaves(c, s2, normal, &tangential);
     fst_set_slip_double(c, state, (const double[2]){left * at.slip[0], left * at.slip[1]});
     flow->contact.impacts += 1;
     flow->contact.impulse += normal;

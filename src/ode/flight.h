@@ -13,6 +13,10 @@ static inline int fst_flight_is_on(const fst_flow *flow)
 /* The bead leaves the plate, at the speed `climb`. */
 void fst_flight_begin(double *state, double climb);
 
+/* The part that an impact of the normal impulse `normal` leaves of a slip, whose square is s2, by an impulse of
+ * friction. */
+double fst_impact_leaves(const fst_world_double *c, double s2, double normal, double *impulse);
+
 /* The bead, which was in the air, is back on the plate at `state`; the impact changes it.  Returns whether the
  * bead stays down; else it flies on. */
 int fst_flight_impact(fst_flow *flow, double *state);

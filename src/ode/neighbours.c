@@ -14,7 +14,7 @@
  * differences at equal times of |V| and of its direction become large against |V| itself; at equal theta they
  * die with it.  So a tangent vector keeps its dt until the slip is over or the way ends.
  *
- * A bead that flies, and a disc that neither slips nor pivots, are not known here: fst_neighbours_known().
+ * A disc that neither slips nor pivots is not known here: fst_neighbours_known().
  *
  * Where the mode changes (w: what sticks or slips before, f: after):
  *
@@ -25,6 +25,16 @@
  *     stick -> slip     static friction was stronger: f != w.  The neighbour lets go at another time, off by
  *                       dt = -Dg d/(Dg w), g being what static friction could still take: d + w dt goes on
  *     onset -> stick    the slip has come back to nothing at the rate s': dt = -ds/s', d + (w - f) dt goes on
+ *
+ * A bead that flies (ode/flight.c) has a height and a climb, z and z', and so have its neighbours:
+ *
+ *     leaves the plate  at N = 0 friction has ceased and z'' = 0: f = w, and nothing happens.  (A neighbour that
+ *                       leaves dt later is higher by the order of dt^3.)
+ *     comes down        off by dt = -dz/z'; there its slip, which the impact rubs, and the speed of its fall are
+ *                       off by those of d + w dt.  The impact's derivative maps these on, dz' -> -e_n dz', and
+ *                       dz is 0.  Its clock stays off by dt, from impact to impact
+ *     stays down        what dz' still was is dropped: hops that grow shorter like e_n^k leave no more of it
+ *                       than of z', and their dt add up to that of the last touch
  *
  * Where the plate resists rolling (ode/rest.c), its modes are the same with the rotation W_h in place of the
  * slip: rolls -> rests as slip -> stick, rests -> starts as stick -> onset.  Two things are more delicate there:
@@ -43,10 +53,12 @@
  */
 #include "ode/neighbours.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "model/tangent.inl"
+#include "ode/flight.h"
 
 enum { STAGES = 12 };
 
@@ -81,13 +93,12 @@ static void at_same_slip(const fst_neighbours *b, const fst_world_double *c, con
         by[i] = (above[i] - below[i]) / b->spread;
 }
 
-/* d(state)/dtheta changes by this with the parameter, and the pace by *pace, at an unchanged slip: a slip that
- * is nearly nothing would not be one in a setup with another eps. */
+/* The derivatives of a motion's numbers by theta change by this with the parameter, at an unchanged slip: a slip
+ * that is nearly nothing would not be one in a setup with another eps. */
 static void by_parameter(const fst_neighbours *b, const fst_world_double *c, const fst_modes_double *m,
-                         const double *y, double *by, double *pace)
+                         const double *y, double *by)
 {
-    memset(by, 0, FST_STATE_SIZE * sizeof *by);
-    *pace = 0.0;
+    memset(by, 0, FST_NUMBERS * sizeof *by);
     if (b->parameter < 0)
         return;
     if (b->exact) {
@@ -97,21 +108,24 @@ static void by_parameter(const fst_neighbours *b, const fst_world_double *c, con
             by[i] *= here;
         return;
     }
-    double rate[2][FST_STATE_SIZE], paces[2];
+    double rate[2][FST_STATE_SIZE], paces[2], climbs[2];
     for (int side = 0; side < 2; ++side) {
         const fst_world_double *other = side ? &b->above : &b->below;
-        fst_pull_double unused;
+        fst_pull_double pull;
         double state[FST_NUMBERS], change[2];
         memcpy(state, y, sizeof state);
         same_slip(c, other, y, change);
         state[FST_VX] += change[0];
         state[FST_VY] += change[1];
         paces[side] = fst_pace_double(other, m, state);
-        fst_rhs_double(other, m, other->omega, state, rate[side], &unused);
+        fst_rhs_double(other, m, other->omega, state, rate[side], &pull);
+        climbs[side] = -fst_load_double(other, pull.force);
     }
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         by[i] = (paces[1] * rate[1][i] - paces[0] * rate[0][i]) / b->spread;
-    *pace = (paces[1] - paces[0]) / b->spread;
+    by[FST_STEP_TIME] = (paces[1] - paces[0]) / b->spread;
+    if (fst_in_flight_double(m))
+        by[FST_CLIMB] = (climbs[1] - climbs[0]) / b->spread;
 }
 
 /* Neighbour `column` as the derivatives at an unchanged slip see it: all others differ by their start alone. */
@@ -119,7 +133,7 @@ static void neighbour(const fst_neighbours *b, const fst_world_double *c, const 
                       const double *d, double *seen)
 {
     double by[2];
-    memcpy(seen, d, FST_STATE_SIZE * sizeof *seen);
+    memcpy(seen, d, FST_NUMBERS * sizeof *seen);
     if (column != b->parameter)
         return;
     at_same_slip(b, c, y, by);
@@ -131,7 +145,7 @@ static void neighbour(const fst_neighbours *b, const fst_world_double *c, const 
 static void slip_of(const fst_neighbours *b, const fst_world_double *c, const double *y, int column,
                     double slip[2])
 {
-    double seen[FST_STATE_SIZE];
+    double seen[FST_NUMBERS];
     neighbour(b, c, y, column, b->d[column], seen);
     fst_slip_double(c, seen, slip);
 }
@@ -173,26 +187,31 @@ static void stop_what_stops(fst_neighbours *b, const fst_world_double *c, const 
 
 /* The derivatives of the differences by theta at a stage. */
 static void slopes(const fst_neighbours *b, const fst_world_double *c, const fst_modes_double *m, double omega,
-                   const double *y, double d[FST_NEIGHBOURS][FST_STATE_SIZE],
-                   double k[FST_NEIGHBOURS][FST_STATE_SIZE], double *kt)
+                   const double *y, double d[FST_NEIGHBOURS][FST_NUMBERS],
+                   double k[FST_NEIGHBOURS][FST_NUMBERS])
 {
     fst_linear_double linear;
-    double f[FST_STATE_SIZE], by[FST_STATE_SIZE], seen[FST_STATE_SIZE], pace_by;
+    double f[FST_STATE_SIZE], by[FST_NUMBERS], seen[FST_NUMBERS];
+    const int flies = fst_in_flight_double(m);
     const double pace = fst_pace_double(c, m, y);
     fst_linearise_double(c, m, omega, y, &linear, f);
-    by_parameter(b, c, m, y, by, &pace_by);
+    if (c->kinds.flies && !flies) /* the step that ends at lift-off, N = 0, belongs to N > 0 all the way */
+        linear.contact.load = fmax(linear.contact.load, DBL_MIN);
+    by_parameter(b, c, m, y, by);
     for (int column = 0; column < b->count; ++column) {
         neighbour(b, c, y, column, d[column], seen);
+        if (flies) {
+            fst_change_aloft_double(c, omega, y, &linear, seen, k[column]);
+            continue;
+        }
         const double faster = fst_pace_change_double(c, m, y, seen);
         fst_change_along_double(c, omega, y, &linear, seen, k[column]);
         for (int i = 0; i < FST_STATE_SIZE; ++i)
             k[column][i] = pace * k[column][i] + faster * f[i];
-        kt[column] = faster;
+        k[column][FST_STEP_TIME] = faster;
     }
-    for (int i = 0; i < FST_STATE_SIZE && b->parameter >= 0; ++i)
+    for (int i = 0; i < (flies ? FST_NUMBERS : FST_HEIGHT) && b->parameter >= 0; ++i)
         k[b->parameter][i] += by[i];
-    if (b->parameter >= 0)
-        kt[b->parameter] += pace_by;
 }
 
 /* Carry the differences along the flow's last step, by its own stages. */
@@ -200,49 +219,54 @@ static void carry_along_step(fst_neighbours *b, const fst_flow *flow)
 {
     static const double weights[16][15] = DOP_WEIGHTS;
     const fst_bead_step_double *s = &flow->step;
-    double k[STAGES][FST_NEIGHBOURS][FST_STATE_SIZE], kt[STAGES][FST_NEIGHBOURS],
-        at[FST_NEIGHBOURS][FST_STATE_SIZE];
+    const int numbers = fst_in_flight_double(FST_MODES(s)) ? FST_NUMBERS : FST_HEIGHT;
+    double k[STAGES][FST_NEIGHBOURS][FST_NUMBERS], at[FST_NEIGHBOURS][FST_NUMBERS];
     for (int stage = 0; stage <= STAGES; ++stage) { /* the last is the end of the step */
         memcpy(at, b->d, sizeof at);
         for (int before = 0; before < stage; ++before) {
             const double weight = s->h * weights[stage][before];
             for (int column = 0; column < b->count && weight != 0.0; ++column)
-                for (int i = 0; i < FST_STATE_SIZE; ++i)
+                for (int i = 0; i < numbers; ++i)
                     at[column][i] += weight * k[before][column][i];
         }
         if (stage < STAGES)
-            slopes(b, FST_WORLD(s), FST_MODES(s), s->omega, s->stage[stage], at, k[stage], kt[stage]);
+            slopes(b, FST_WORLD(s), FST_MODES(s), s->omega, s->stage[stage], at, k[stage]);
     }
     memcpy(b->d, at, sizeof at);
-    for (int stage = 0; stage < STAGES; ++stage)
-        for (int column = 0; column < b->count; ++column)
-            b->dt[column] += s->h * weights[STAGES][stage] * kt[stage][column];
     stop_what_stops(b, FST_WORLD(s), FST_MODES(s), s->end);
 }
 
 /* ------------------------------------------------------------------ where the mode changes */
 
-/* d(state)/dt at the end of the last step, in the modes of the contact and of rolling. */
+/* The derivatives by time of a motion's numbers at the end of the last step, in the modes of the contact and of
+ * rolling; 0 of the clock. */
 static void rate_in(const fst_flow *flow, int contact, int rolling, double *f)
 {
+    const fst_world_double *c = fst_flow_world(flow);
     fst_modes_double m = *fst_flow_modes(flow);
-    fst_pull_double unused;
+    fst_pull_double pull;
     m.contact = contact;
     m.rolling = rolling;
-    fst_rhs_double(fst_flow_world(flow), &m, flow->step.omega, flow->step.end, f, &unused);
+    memset(f, 0, FST_NUMBERS * sizeof *f);
+    fst_rhs_double(c, &m, flow->step.omega, flow->step.end, f, &pull);
+    if (contact != FST_MODE_FLIGHT)
+        return;
+    f[FST_HEIGHT] = flow->step.end[FST_CLIMB];
+    f[FST_CLIMB] = -fst_load_double(c, pull.force);
 }
 
-/* Every neighbour, off by its dt, at the time of the motion: `sign` -1.  And the other way round: +1. */
+/* Every neighbour, off by its clock, at the time of the motion: `sign` -1.  And the other way round: +1. */
 static void shift(fst_neighbours *b, const double *f, double sign)
 {
     for (int column = 0; column < b->count; ++column)
-        for (int i = 0; i < FST_STATE_SIZE; ++i)
-            b->d[column][i] += sign * b->dt[column] * f[i];
+        for (int i = 0; i < FST_NUMBERS; ++i)
+            b->d[column][i] += sign * b->d[column][FST_STEP_TIME] * f[i];
 }
 
 static void forget_clocks(fst_neighbours *b)
 {
-    memset(b->dt, 0, sizeof b->dt);
+    for (int column = 0; column < b->count; ++column)
+        b->d[column][FST_STEP_TIME] = 0.0;
 }
 
 /* What static friction could still take, in a setup, of the push in a state, and its change in time or along a
@@ -278,13 +302,13 @@ static void let_go(fst_neighbours *b, const fst_flow *flow)
     const fst_world_double *c = fst_flow_world(flow);
     const fst_modes_double *m = fst_flow_modes(flow);
     const double *y = flow->step.end, omega = flow->step.omega;
-    double w[FST_STATE_SIZE];
+    double w[FST_NUMBERS];
     rate_in(flow, FST_MODE_STICK, fst_contact_roll(flow), w);
     const double rate = grip_change(c, m, omega, y, w);
     for (int column = 0; column < b->count; ++column)
-        b->dt[column] = -grip_change(c, m, omega, y, b->d[column]) / rate;
+        b->d[column][FST_STEP_TIME] = -grip_change(c, m, omega, y, b->d[column]) / rate;
     if (differs(b))
-        b->dt[b->parameter] -= (grip(&b->above, m, y) - grip(&b->below, m, y)) / b->spread / rate;
+        b->d[b->parameter][FST_STEP_TIME] -= (grip(&b->above, m, y) - grip(&b->below, m, y)) / b->spread / rate;
     shift(b, w, 1.0);
     stop_slips(b, c, y);
 }
@@ -295,7 +319,7 @@ static void at_equal_speeds(fst_neighbours *b, const fst_flow *flow, int rolls)
 {
     const fst_world_double *c = fst_flow_world(flow);
     const double *y = flow->step.end;
-    double w[FST_STATE_SIZE], slip[2];
+    double w[FST_NUMBERS], slip[2];
     fst_pull_double p;
     fst_magnetic_pull_double(c, fst_flow_modes(flow), y, &p);
     const fst_contact_double at = fst_contact_of_double(c, fst_flow_modes(flow), y, &p);
@@ -310,7 +334,7 @@ static void at_equal_speeds(fst_neighbours *b, const fst_flow *flow, int rolls)
         const double dt = -(push[0] * speed[0] + push[1] * speed[1]) / rate;
         for (int i = 0; i < FST_STATE_SIZE; ++i)
             b->d[column][i] += dt * w[i];
-        b->dt[column] += dt;
+        b->d[column][FST_STEP_TIME] += dt;
     }
 }
 
@@ -331,7 +355,7 @@ static void rate_then(const fst_flow *flow, const fst_flow *then, double *f)
  * goes on.) */
 static void catch_up(fst_neighbours *b, const fst_flow *flow, const fst_flow *then)
 {
-    double f[FST_STATE_SIZE];
+    double f[FST_NUMBERS];
     rate_then(flow, then, f);
     shift(b, f, -1.0);
     forget_clocks(b);
@@ -341,13 +365,122 @@ static void catch_up(fst_neighbours *b, const fst_flow *flow, const fst_flow *th
  * equal times before. */
 static void bring_to_equal_times(fst_neighbours *b, const fst_flow *flow)
 {
-    double w[FST_STATE_SIZE];
+    double w[FST_NUMBERS];
     if (!fst_flow_world(flow)->kinds.resists) /* then they are */
         return;
     rate_in(flow, fst_contact_mode(flow), fst_contact_roll(flow), w);
     shift(b, w, -1.0);
     forget_clocks(b);
 }
+
+/* ------------------------------------------------------------------ where the bead leaves the plate */
+
+/* Neighbours are compared at equal times in the air: friction has ceased where they leave the plate. */
+static void leave(fst_neighbours *b, const fst_flow *flow)
+{
+    double f[FST_NUMBERS];
+    rate_in(flow, fst_contact_mode(flow), fst_contact_roll(flow), f);
+    shift(b, f, -1.0);
+    forget_clocks(b);
+    for (int column = 0; column < b->count; ++column)
+        b->d[column][FST_HEIGHT] = b->d[column][FST_CLIMB] = 0.0;
+}
+
+/* An impact: the slip, the speed of the fall, the impulse of friction, and the part of the slip that it leaves. */
+typedef struct impact {
+    double slip[2], falls, impulse, left;
+    int stops; /* the slip */
+} impact;
+
+static impact impact_at(const fst_world_double *c, const double *y)
+{
+    impact at = {.falls = fmax(-y[FST_CLIMB], 0.0)};
+    fst_slip_double(c, y, at.slip);
+    const double s2 = at.slip[0] * at.slip[0] + at.slip[1] * at.slip[1];
+    at.left = fst_impact_leaves(c, s2, (1.0 + c->law.coulomb.restitution) * at.falls, &at.impulse);
+    at.stops = !(at.impulse < c->share * sqrt(s2));
+    return at;
+}
+
+/* How the slip that an impact leaves differs where the slip before it differs by `d` and the fall by dfalls. */
+static void rub(const fst_world_double *c, const impact *at, const double d[2], double dfalls, double out[2])
+{
+    const fst_coulomb_double *law = &c->law.coulomb;
+    const double *v = at->slip, s2 = v[0] * v[0] + v[1] * v[1], s = sqrt(s2), more = 1.0 + law->restitution;
+    out[0] = out[1] = 0.0;
+    if (at->stops)
+        return;
+    const double along = (v[0] * d[0] + v[1] * d[1]) / s2;
+    const double dimpulse = more * (fst_coulomb_mu_double(law, s2) * dfalls +
+                                    2.0 * s2 * along * fst_coulomb_mu_by_s2_double(law, s2) * at->falls);
+    const double dleft = -c->yielding * (dimpulse - at->impulse * along) / s;
+    for (int i = 0; i < 2; ++i)
+        out[i] = at->left * d[i] + dleft * v[i];
+}
+
+/* The state that an impact leaves in another setup, at the same slip before it. */
+static void impact_in(const fst_world_double *c, const fst_world_double *other, const double *y, double *after)
+{
+    double change[2];
+    memcpy(after, y, FST_NUMBERS * sizeof *after);
+    same_slip(c, other, y, change);
+    after[FST_VX] += change[0];
+    after[FST_VY] += change[1];
+    const impact at = impact_at(other, after);
+    fst_set_slip_double(other, after, (const double[2]){at.left * at.slip[0], at.left * at.slip[1]});
+    after[FST_CLIMB] = other->law.coulomb.restitution * at.falls;
+}
+
+/* The neighbours come down when they do, not when the motion does; their clocks stay off by that. */
+static void come_down(fst_neighbours *b, const fst_flow *flow)
+{
+    const fst_world_double *c = fst_flow_world(flow);
+    const double *y = flow->step.end;
+    const impact at = impact_at(c, y);
+    double w[FST_NUMBERS], seen[FST_NUMBERS], slip[2], rubbed[2], after[2][FST_NUMBERS];
+    rate_in(flow, FST_MODE_FLIGHT, fst_contact_roll(flow), w);
+    for (int column = 0; column < b->count; ++column) {
+        double *d = b->d[column];
+        const double dt = at.falls > 0.0 ? d[FST_HEIGHT] / at.falls : 0.0;
+        for (int i = 0; i < FST_NUMBERS; ++i)
+            d[i] += dt * w[i];
+        d[FST_STEP_TIME] += dt;
+        d[FST_HEIGHT] = 0.0;
+        neighbour(b, c, y, column, d, seen);
+        fst_slip_double(c, seen, slip);
+        rub(c, &at, slip, -d[FST_CLIMB], rubbed);
+        memcpy(d, seen, sizeof seen);
+        fst_set_slip_double(c, d, rubbed);
+        d[FST_CLIMB] *= -c->law.coulomb.restitution;
+    }
+    if (!differs(b))
+        return;
+    impact_in(c, &b->below, y, after[0]);
+    impact_in(c, &b->above, y, after[1]);
+    for (int i = 0; i < FST_NUMBERS; ++i)
+        b->d[b->parameter][i] += (after[1][i] - after[0][i]) / b->spread;
+}
+
+/* A bead that was in the air touches the plate; where it stays down, `then` is the flow on the plate. */
+static void touch(fst_neighbours *b, const fst_flow *flow, fst_flow *then)
+{
+    const int after = fst_contact_mode(then);
+    double f[FST_NUMBERS];
+    come_down(b, flow);
+    if (after == FST_MODE_FLIGHT)
+        return;
+    for (int column = 0; column < b->count; ++column)
+        b->d[column][FST_CLIMB] = 0.0;
+    if (after == FST_MODE_SLIP) /* it goes on at equal theta */
+        return;
+    stop_slips(b, fst_flow_world(then), then->step.end);
+    then->step.end[FST_STEP_TIME] = 0.0;
+    rate_in(then, after, fst_contact_roll(then), f);
+    shift(b, f, -1.0);
+    forget_clocks(b);
+}
+
+/* ------------------------------------------------------------------ where any mode changes */
 
 /* The mode of rolling changes, at the end of the flow's last step, to that of `then`. */
 static void change_roll(fst_neighbours *b, const fst_flow *flow, const fst_flow *then)
@@ -373,12 +506,16 @@ static void change_roll(fst_neighbours *b, const fst_flow *flow, const fst_flow 
 }
 
 /* That of the contact. */
-static void change_contact(fst_neighbours *b, const fst_flow *flow, const fst_flow *then)
+static void change_contact(fst_neighbours *b, const fst_flow *flow, fst_flow *then)
 {
     const int before = fst_contact_mode(flow), after = fst_contact_mode(then);
     const fst_world_double *c = fst_flow_world(flow);
     const int jumps = c->law.coulomb.holding > fst_coulomb_mu_double(&c->law.coulomb, 0.0);
-    if (before == FST_MODE_SLIP && after == FST_MODE_SLIP) { /* against a push that turns it round */
+    if (before == FST_MODE_FLIGHT) {
+        touch(b, flow, then);
+    } else if (after == FST_MODE_FLIGHT) {
+        leave(b, flow);
+    } else if (before == FST_MODE_SLIP && after == FST_MODE_SLIP) { /* against a push that turns it round */
         stop_slips(b, c, flow->step.end);
     } else if (before == FST_MODE_SLIP) { /* the rest of a slip dies at equal theta */
         stop_slips(b, c, flow->step.end);
@@ -415,7 +552,8 @@ static void change_mode(fst_neighbours *b, const fst_flow *flow)
 void fst_neighbours_start(fst_neighbours *b, const fst_flow *flow)
 {
     const fst_world_double *c = fst_flow_world(flow);
-    forget_clocks(b);
+    for (int column = 0; column < b->count; ++column)
+        memset(b->d[column] + FST_STATE_SIZE, 0, (FST_NUMBERS - FST_STATE_SIZE) * sizeof *b->d[column]);
     if (c->kinds.resists && fst_contact_roll(flow) != FST_ROLL_ROLLS)
         stop_rolling(b, c);
     if (fst_sticks_double(c, fst_flow_modes(flow)) > 0.5 || fst_contact_mode(flow) == FST_MODE_ONSET)
@@ -427,7 +565,7 @@ int fst_neighbours_known(const fst_flow *flow)
     const fst_world_double *c = fst_flow_world(flow);
     const int now = fst_contact_mode(flow), next = flow->contact.slip.next;
     const int held = c->kinds.patch && (now == FST_MODE_STICK || next == FST_MODE_STICK);
-    return now != FST_MODE_FLIGHT && next != FST_MODE_FLIGHT && !held;
+    return !held;
 }
 
 void fst_neighbours_follow(fst_neighbours *b, const fst_flow *flow)
@@ -439,7 +577,7 @@ void fst_neighbours_follow(fst_neighbours *b, const fst_flow *flow)
 
 void fst_neighbours_at_equal_times(fst_neighbours *b, const fst_flow *flow)
 {
-    double f[FST_STATE_SIZE];
+    double f[FST_NUMBERS];
     if (!fst_flow_world(flow)->kinds.modes ||
         flow->contact.slip.next >= 0) /* where a mode just ended, the clocks were set, or must wait */
         return;

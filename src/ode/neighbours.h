@@ -12,8 +12,9 @@ typedef struct fst_neighbours {
     int exact;     /* by the drive's omega alone */
     double spread; /* else: of the parameter between these two setups */
     fst_world_double below, above;
-    double d[FST_NEIGHBOURS][FST_STATE_SIZE]; /* by how much the states differ */
-    double dt[FST_NEIGHBOURS];                /* at equal theta: by how much the clocks are ahead */
+    /* By how much the numbers of their motions differ: the states; at equal theta the clocks (FST_STEP_TIME), by
+     * which they are ahead; and height and climb of a bead in the air. */
+    double d[FST_NEIGHBOURS][FST_NUMBERS];
 } fst_neighbours;
 
 /* The flow is at its start, where the neighbours differ by d. */
@@ -22,8 +23,8 @@ void fst_neighbours_start(fst_neighbours *b, const fst_flow *flow);
 /* Carry them along the flow's last step, and through the change of mode at its end. */
 void fst_neighbours_follow(fst_neighbours *b, const fst_flow *flow);
 
-/* Whether the flow's last step, and what follows it, is a motion of which neighbours are known: no flight, and
- * no disc that is held. */
+/* Whether the flow's last step, and what follows it, is a motion of which neighbours are known: no disc
+ * that is held. */
 int fst_neighbours_known(const fst_flow *flow);
 
 /* Compare them with the motion at equal times from here on. */

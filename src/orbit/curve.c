@@ -22,6 +22,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "observe/marks.h"
 
 #define SHORTEST_STEP 1e-7
 /* Dry friction: a step so short stands before a kink of the curve, which is leapt over. */
@@ -144,7 +145,7 @@ static int has_ended(fst_curve *curve, const fst_node *start, const fst_node *he
     return 1;
 }
 
-/* Dry friction: over a kink of the curve, where an orbit gains or loses a rest, Newton's method finds the other
+/* Dry friction: over a kink of the curve, where an orbit gains or loses a rest or a flight, Newton's method finds the other
  * side from here, but no continuation does.  1 if there is one, at the distance *h. */
 static int leap(const fst_curve *curve, const fst_node *here, fst_node *next, double *h, int *left)
 {
@@ -189,15 +190,39 @@ static int next_node(fst_curve *curve, const fst_node *last, const fst_node *her
         fst_curve_end_set(&curve->end, FST_END_ROLLS,
                           "its slip falls to nothing at %.10g: beyond, the bead rolls", here->s.value);
     else if (here->captures > 0)
-        fst_curve_end_set(
-            &curve->end, FST_END_LOST,
-            "it could not be followed beyond %.10g, where a slip may just come to rest, or a rest "
-            "just begin, and the return jumps or bends",
-            here->s.value);
+        fst_curve_end_set(&curve->end, FST_END_LOST,
+                          "it could not be followed beyond %.10g, where a slip may just come to rest, a rest "
+                          "just begin, or a "
+                          "flight just touch the plate, and the return jumps or bends",
+                          here->s.value);
     else
         fst_curve_end_set(&curve->end, FST_END_LOST, "it could not be followed beyond %.10g: %.110s",
                           here->s.value, why.sentence);
     return 0;
+}
+
+/* A chain of states on the plate ends where a flight reaches one of them: the same orbit from another state, where
+ * the bead stays on the plate for long.  1 if that is not the node that was. */
+static int begin_elsewhere(fst_curve *curve, fst_node *here)
+{
+    const fst_family *family = curve->family;
+    const fst_direction was = here->s.tangent;
+    fst_direction keep = {.value = family->scale};
+    fst_solution s = here->s;
+    fst_node moved;
+    fst_error ignored;
+    if (here->s.segments == 0 || fst_solution_keep_to_plate(family, &s, &ignored) != FST_OK ||
+        fst_state_distance(s.y[0], here->s.y[0]) < STEP_AT_KINK ||
+        fst_solution_chain(family, &s, s.symmetric ? 1 : 2, &ignored) != FST_OK ||
+        fst_solution_correct(family, &s, &keep, &ignored) != FST_OK)
+        return 0;
+    if (s.tangent.value * was.value + 0.0025 * family->scale * s.tangent.period * was.period < 0.0)
+        fst_direction_scale(&s.tangent, -1.0);
+    if (fst_node_make(family, &s, &moved, &ignored) != FST_OK)
+        return 0;
+    *here = moved;
+    curve->end = (fst_curve_end){.type = FST_END_NONE};
+    return 1;
 }
 
 static fst_status follow(fst_curve *curve, const fst_node *start, int sign, fst_error *error)
@@ -206,12 +231,18 @@ static fst_status follow(fst_curve *curve, const fst_node *start, int sign, fst_
     /* Points of equilibria cost next to nothing, and their pairs cross the axis one soon after another. */
     const double density = start->s.segments > 0 ? 1.0 : 0.04;
     double longest = density * curve->longest_step, h = 0.1 * longest;
-    int nodes = 0;
+    int nodes = 0, moved = 0;
     fst_direction_scale(&here.s.tangent, sign);
     here.length = 0.0;
     for (;;) {
         int left;
-        if (!next_node(curve, nodes > 0 ? &last : NULL, &here, &h, &next, &left))
+        const int found = next_node(curve, nodes > 0 && !moved ? &last : NULL, &here, &h, &next, &left);
+        if (!found && !moved && begin_elsewhere(curve, &here)) {
+            moved = 1;
+            h = 0.1 * longest;
+            continue;
+        }
+        if (!found)
             return nodes > 0 && here.s.segments > 0
                        ? fst_look_for_hopf_end(curve->family, &curve->sink, &last, &here, &curve->end, error)
                        : FST_OK;
@@ -227,6 +258,7 @@ static fst_status follow(fst_curve *curve, const fst_node *start, int sign, fst_
         const int iterations = next.s.iterations;
         last = here;
         here = next;
+        moved = 0;
         nodes += 1;
         if (has_ended(curve, start, &here, nodes, h))
             return FST_OK;

@@ -31,6 +31,7 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "observe/means.h"
+#include "ode/flight.h"
 #include "study/conclude.h"
 
 /* Distance from the axis where r is least, with the side on which the axis lies. */
@@ -85,7 +86,7 @@ static void look_at_step(fst_flow *flow, extremes_of_r *e, fst_description *out)
         if (!(fabs(distance) >= fabs(out->closest)))
             out->closest = distance;
     }
-    if (!out->has_section && start[FST_X] < 0 && end[FST_X] >= 0) {
+    if (!out->has_section && !fst_flight_is_on(flow) && start[FST_X] < 0 && end[FST_X] >= 0) {
         const double x = fst_flow_locate(flow, fst_section_function, 0.0, 1.0, start[FST_X], end[FST_X]);
         fst_flow_at(flow, x, y);
         if (y[FST_Y] > 0) {
@@ -149,6 +150,7 @@ static fst_status go_round(round_trip *trip, const fst_family *family, double pe
         if (extremes)
             fst_extremes_step(window->extremes, &window->quadrature, trip->flow, 0.0);
         look_at_step(trip->flow, &trip->extremes_met, out);
+        out->flights += !fst_flight_is_on(trip->flow) && trip->flow->contact.slip.next == FST_MODE_FLIGHT;
     }
     mark_end(trip);
     return status;

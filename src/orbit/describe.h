@@ -13,7 +13,8 @@ typedef struct fst_description {
     double section[FST_STATE_SIZE]; /* ... here */
     double swing_ratio;             /* of the two falls of r, minus 1; NAN: there are not two */
     double least_load;              /* least normal load per mass */
-    int captures;                   /* slips that come to rest in a period, under a law with modes */
+    int captures;                   /* slips that come to rest in a period, under a law with modes, */
+    int flights;                    /* and how often the bead leaves the plate */
 } fst_description;
 
 /* Follow a corrected orbit once round.  `extremes`: locate them too. */

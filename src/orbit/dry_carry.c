@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "ode/flight.h"
 #include "ode/neighbours.h"
 
 _Static_assert((int)FST_COLUMNS <= (int)FST_NEIGHBOURS, "every column has a neighbour");
@@ -15,14 +16,9 @@ enum { STEP_WORK = 60 }; /* of a step with its columns, in evaluations of the eq
 /* Why there are no multipliers and no exponents of a motion. */
 static fst_status refuse(const fst_flow *flow, fst_error *error)
 {
-    if (fst_contact_mode(flow) == FST_MODE_FLIGHT || flow->contact.slip.next == FST_MODE_FLIGHT)
-        return fst_fail(
-            error, FST_NO_CONVERGENCE, "tangents",
-            "the bead leaves the plate at t = %.6g. Its neighbours land at other places and times, and are "
-            "not followed through a flight, so this motion has no multipliers and no exponents; run tells "
-            "whether it repeats itself (period), and how often the bead comes down "
-            "(impacts_per_return)",
-            flow->t.high);
+    if (fst_flight_is_on(flow))
+        return fst_fail(error, FST_NO_CONVERGENCE, "tangents",
+                        "the bead is in the air where a piece of its orbit ends, at t = %.6g", flow->t.high);
     return fst_fail(
         error, FST_NO_CONVERGENCE, "tangents",
         "the plate stops a disc of contact, its slip and its pivoting at once, at t = %.6g, and "
@@ -37,10 +33,11 @@ static fst_status follow(const fst_setup *setup, fst_neighbours *b, fst_flow *fl
 {
     const fst_twofold end = {duration, 0.0};
     fst_neighbours_start(b, flow);
-    while (fst_twofold_difference(end, flow->t) > 0.0) {
+    while (fst_twofold_difference(end, flow->t) > 0.0 || (setup->late && fst_flight_is_on(flow))) {
+        const int more = fst_twofold_difference(end, flow->t) > 0.0;
         fst_status status = fst_watch_count(setup->watch, STEP_WORK, error);
         if (status == FST_OK)
-            status = fst_flow_step(flow, duration, error);
+            status = fst_flow_step(flow, more ? duration : flow->t.high + 1.0, error);
         if (status != FST_OK)
             return status;
         if (!fst_neighbours_known(flow))
@@ -49,6 +46,10 @@ static fst_status follow(const fst_setup *setup, fst_neighbours *b, fst_flow *fl
         if (setup->sticks && fst_sticks_double(fst_flow_world(flow), fst_flow_modes(flow)) > 0.5)
             *setup->sticks = 1;
     }
+    if (fst_flight_is_on(flow))
+        return refuse(flow, error);
+    if (setup->late)
+        *setup->late = -fst_twofold_difference(end, flow->t);
     fst_neighbours_at_equal_times(b, flow);
     return FST_OK;
 }

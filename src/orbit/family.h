@@ -39,6 +39,7 @@ typedef struct fst_setup {
     double spread;    /* of the parameter between them */
     fst_watch *watch; /* the family's */
     int *sticks;      /* set to 1 where the contact comes to rest on a way (NULL: nobody asks) */
+    double *late;     /* how much longer a way took that would have ended in the air (NULL: none may) */
 } fst_setup;
 
 /* A family over `key` (NULL: none free); clears the other forms of the quantity.  FST_BAD_INPUT: no such key,

@@ -27,7 +27,7 @@
 #include "base/dot.h"
 #include "base/error.h"
 #include "base/watch.h"
-#include "ode/flow.h"
+#include "ode/flight.h"
 #include "study/growth.h"
 
 enum {
@@ -57,6 +57,8 @@ typedef struct spectrum {
     double sum[N];       /* and since the measurement began */
     fst_growth growth[N], divergence;
     fst_growth_clock clock;
+    double late; /* by how much the last piece was longer, for a bead to come down */
+    int flew;    /* at least once */
     const fst_progress *progress;
     double passed, whole; /* of the work: the time since the start, and all of it */
 } spectrum;
@@ -136,16 +138,28 @@ static double divergence_at(const spectrum *s)
     return trace; /* along n the flow neither stretches nor shrinks: |n| is kept */
 }
 
-/* On for one piece, short enough for the columns to stay apart. */
-static fst_status go_on(spectrum *s, double piece, fst_error *error)
+/* On for one piece, short enough for the columns to stay apart.  It ends on the plate; what it takes longer is
+ * taken from the next ones, which may have nothing left. */
+static fst_status go_on(spectrum *s, double *piece, fst_error *error)
 {
+    const double late = s->late;
     fst_status status = fst_tell(s->progress, s->passed / s->whole, NULL, error);
+    s->setup.late = &s->late;
+    if (late >= *piece) {
+        s->late -= *piece;
+        *piece = 0.0;
+        return status;
+    }
+    *piece -= late;
+    s->late = 0.0;
     if (status == FST_OK)
-        status = fst_carry(&s->setup, s->tolerance, piece, s->y, s->tangent, error);
+        status = fst_carry(&s->setup, s->tolerance, *piece, s->y, s->tangent, error);
     if (status != FST_OK)
         return status;
+    *piece += s->late;
+    s->flew |= s->late > 0.0;
     orthonormalise(s);
-    s->passed += piece;
+    s->passed += *piece;
     return FST_OK;
 }
 
@@ -154,8 +168,10 @@ static fst_status align(spectrum *s, double duration, fst_error *error)
 {
     const double pieces = ceil(duration / PIECE);
     fst_status status = FST_OK;
-    for (double i = 0.0; i < pieces && status == FST_OK; ++i)
-        status = go_on(s, duration / pieces, error);
+    for (double i = 0.0; i < pieces && status == FST_OK; ++i) {
+        double piece = duration / pieces;
+        status = go_on(s, &piece, error);
+    }
     return status;
 }
 
@@ -163,8 +179,8 @@ static fst_status align(spectrum *s, double duration, fst_error *error)
 static fst_status measure_piece(spectrum *s, double piece, fst_error *error)
 {
     const double before = divergence_at(s);
-    const fst_status status = go_on(s, piece, error);
-    if (status != FST_OK)
+    const fst_status status = go_on(s, &piece, error);
+    if (status != FST_OK || !(piece > 0.0))
         return status;
     if (hypot(s->y[FST_X], s->y[FST_Y]) > s->setup.model.groups.map_radius)
         return fst_fail(
@@ -277,22 +293,25 @@ static fst_status measure(spectrum *s, double duration, double period, fst_lyapu
     for (int c = 0; c < N; ++c)
         if (s->lost[c]) /* what comes to rest contracts all volumes to nothing */
             out->divergence = -INFINITY;
+        else if (s->flew && isfinite(out->divergence)) /* impacts contract them too */
+            out->divergence = NAN;
     conclude(s, out);
     widen_pairs(out);
     judge(out, speed);
     return FST_OK;
 }
 
-/* Steps to the end of run.discard; the caller hears of progress between them. */
+/* Steps to the end of run.discard, or to where the bead comes down after it; the caller hears of progress between them. */
 static fst_status steps_until(spectrum *s, fst_flow *flow, double end, fst_error *error)
 {
     const fst_twofold until = {end, 0.0};
     double x;
-    for (uint64_t steps = 0; fst_twofold_difference(until, flow->t) > 0; ++steps) {
+    for (uint64_t steps = 0; fst_twofold_difference(until, flow->t) > 0 || fst_flight_is_on(flow); ++steps) {
+        const int before = fst_twofold_difference(until, flow->t) > 0;
         s->passed = DISCARD_WORK * flow->t.high;
         fst_status status = steps % 64 == 0 ? fst_tell(s->progress, s->passed / s->whole, NULL, error) : FST_OK;
         if (status == FST_OK)
-            status = fst_flow_step(flow, end, error);
+            status = fst_flow_step(flow, before ? end : flow->t.high + 1.0, error);
         if (status != FST_OK)
             return status;
         if (fst_flow_first_negative(flow, fst_edge_function, 0.0, &x))

@@ -12,11 +12,9 @@ static void begin_chain(const fst_orbit *guess, fst_solution *s)
 {
     memset(s, 0, sizeof *s);
     s->symmetric = guess->symmetry == FST_SYMMETRY_S2;
-    s->on_section = guess->turns != 0;
+    s->on_section = guess->turns != 0 && guess->state[FST_X] == 0.0; /* else the bead flies over it */
     s->period = s->symmetric ? 0.5 * guess->means.period : guess->means.period;
     memcpy(s->y[0], guess->state, sizeof s->y[0]);
-    if (s->on_section)
-        s->y[0][FST_X] = 0.0;
     double *n = s->y[0] + FST_NX;
     const double norm = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     for (int i = 0; i < 3; ++i)

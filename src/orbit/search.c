@@ -26,7 +26,7 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "observe/marks.h"
-#include "ode/flow.h"
+#include "ode/flight.h"
 #include "ode/neighbours.h"
 #include "orbit/describe.h"
 #include "study/conclude.h"
@@ -47,6 +47,8 @@ typedef struct search {
                                           where the magnet has not that symmetry, on either side */
     double section_time[3];
     int section_is_image; /* the latest is one: the bead was on the side Y < 0 */
+    int in_the_air;       /* the bead flew over X = 0, and the state is that of its landing instead */
+    int comes_down;       /* from such a flight, to land soon */
     int passages;         /* since the turning was last irregular */
     int peaks_since;      /* the latest passage: a bead that turns has one or two to a half turn */
     int last_half;
@@ -122,9 +124,11 @@ static int polish(search *s, fst_solution *guess, double gap, fst_error *error)
 {
     double start[FST_STATE_SIZE];
     const double period = guess->period;
-    memcpy(start, guess->y[0], sizeof start);
     s->attempts += 1;
     s->at_rest = s->leaves = 0;
+    if (fst_solution_keep_to_plate(s->family, guess, error) != FST_OK)
+        return 0;
+    memcpy(start, guess->y[0], sizeof start);
     if (fst_solution_chain(s->family, guess, guess->symmetric ? 1 : 2, error) != FST_OK ||
         correct(s, guess, error) != FST_OK || fst_solution_spectrum(s->family, guess, error) != FST_OK)
         return 0;
@@ -170,9 +174,10 @@ static int try_turning(search *s, fst_solution *out, fst_error *error)
             continue;
         memset(out, 0, sizeof *out);
         out->symmetric = symmetric;
-        out->on_section = 1;
+        out->on_section = !s->in_the_air;
         memcpy(out->y[0], s->section[0], sizeof out->y[0]);
-        out->y[0][FST_X] = 0.0;
+        if (out->on_section)
+            out->y[0][FST_X] = 0.0;
         out->period = s->section_time[0] - s->section_time[symmetric ? 1 : 2];
         if (polish(s, out, gap, error)) {
             if (!symmetric && s->model->has_s2)
@@ -215,13 +220,35 @@ static int try_departure(search *s, fst_solution *out, fst_error *error)
     return fst_departure_guess(s->family, latest, 4.0 * close, out, &gap) && polish(s, out, gap, error);
 }
 
-/* The passage of X = 0 in the last step; 1 if it completes a regular turn. */
+/* A passage on the side `half`, at the state y and the time t; 1 if it completes a regular turn. */
+static int take_passage(search *s, int half, double y[FST_STATE_SIZE], double t)
+{
+    s->section_is_image = half < 0 && s->model->has_s2;
+    if (s->section_is_image)
+        fst_apply_s2(y, y);
+    memmove(s->section[1], s->section[0], 2 * sizeof s->section[0]);
+    memmove(s->section_time + 1, s->section_time, 2 * sizeof s->section_time[0]);
+    memcpy(s->section[0], y, FST_STATE_SIZE * sizeof *y);
+    s->section_time[0] = t;
+    s->half_distance =
+        s->passages > 1 && s->model->has_s2 ? fst_state_distance(s->section[0], s->section[1]) : INFINITY;
+    s->full_distance = s->passages > 2 ? fst_state_distance(s->section[0], s->section[2]) : INFINITY;
+    return s->passages > 3;
+}
+
+/* The passage of X = 0 in the last step, or the landing after one in the air. */
 static int note_passage(search *s)
 {
     const double *start = s->flow->step.y, *end = s->flow->step.end;
+    double y[FST_STATE_SIZE];
+    if (s->comes_down && !fst_flight_is_on(s->flow)) {
+        const int half = s->comes_down;
+        s->comes_down = 0;
+        memcpy(y, start, sizeof y);
+        return take_passage(s, half, y, s->flow->t_start.high);
+    }
     if ((start[FST_X] < 0) == (end[FST_X] < 0))
         return 0;
-    double y[FST_STATE_SIZE];
     const double x = start[FST_X] == 0.0
                          ? 0.0
                          : fst_flow_locate(s->flow, fst_section_function, 0.0, 1.0, start[FST_X], end[FST_X]);
@@ -230,24 +257,19 @@ static int note_passage(search *s)
     s->peaks_since = 0;
     s->passages = downward && half != s->last_half ? s->passages + 1 : 1;
     s->last_half = downward ? half : 0;
-    s->section_is_image = half < 0 && s->model->has_s2;
-    if (s->section_is_image)
-        fst_apply_s2(y, y);
-    memmove(s->section[1], s->section[0], 2 * sizeof s->section[0]);
-    memmove(s->section_time + 1, s->section_time, 2 * sizeof s->section_time[0]);
-    memcpy(s->section[0], y, sizeof y);
-    s->section_time[0] = fst_flow_time(s->flow, x).high;
-    s->half_distance =
-        s->passages > 1 && s->model->has_s2 ? fst_state_distance(s->section[0], s->section[1]) : INFINITY;
-    s->full_distance = s->passages > 2 ? fst_state_distance(s->section[0], s->section[2]) : INFINITY;
-    return s->passages > 3;
+    s->in_the_air = fst_flight_is_on(s->flow);
+    if (s->in_the_air) {
+        s->comes_down = half;
+        return 0;
+    }
+    return take_passage(s, half, y, fst_flow_time(s->flow, x).high);
 }
 
 static int note_peak(search *s)
 {
     const double before = fst_radial_function(s->flow, s->flow->step.y, NULL);
     const double after = fst_radial_function(s->flow, s->flow->step.end, NULL);
-    if (!(before > 0 && after <= 0))
+    if (!(before > 0 && after <= 0) || fst_flight_is_on(s->flow))
         return 0;
     const double x = fst_flow_locate(s->flow, fst_radial_function, 0.0, 1.0, before, after);
     fst_flow_at(s->flow, x, s->peak[s->peaks % PEAKS]);
@@ -296,16 +318,14 @@ static fst_status went_elsewhere(search *s, fst_orbit_outcome outcome, fst_error
                     atan2(y[FST_Y], y[FST_X]) * 360.0 / FST_TWO_PI);
 }
 
-/* The bead flew, or the plate held its disc of contact, until lately: Newton's method, which needs neighbours,
- * is of no use. */
+/* The plate held the bead's disc of contact until lately: Newton's method, which needs neighbours, is of no use. */
 static fst_status not_followed(search *s, fst_error *error)
 {
     return fst_fail(
         error, FST_NO_CONVERGENCE, "orbit",
-        "the bead leaves the plate, or the plate holds its disc of contact (the last time after %.4g "
-        "drive periods at omega = %.10g), and neighbours of a bead, which Newton's method and "
-        "multipliers need, are not followed through that. Try another start; run tells whether the "
-        "motion repeats itself (period)",
+        "the plate holds the bead's disc of contact (the last time after %.4g drive periods at omega = %.10g), "
+        "and neighbours of a bead, which Newton's method and multipliers need, are not followed through that. "
+        "Try another start; run tells whether the motion repeats itself (period)",
         s->unfollowed / s->drive_period, s->model->groups.omega);
 }
 

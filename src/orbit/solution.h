@@ -109,6 +109,10 @@ fst_status fst_solution_advance(const fst_family *family, fst_flow *flow, double
 /* Fill in the states of a chain of `segments` from the first one and the period. */
 fst_status fst_solution_chain(const fst_family *family, fst_solution *s, int segments, fst_error *error);
 
+/* A bead in the air is no state of a chain: the first one of an orbit on which the bead flies moves to the middle
+ * of the longest time on the plate. */
+fst_status fst_solution_keep_to_plate(const fst_family *family, fst_solution *s, fst_error *error);
+
 /* A flow from `state` in the setup of a solution; the caller frees it and the model. */
 fst_status fst_solution_flow(const fst_family *family, double value, const double *state, double tolerance,
                              fst_model **model, fst_flow **flow, fst_error *error);

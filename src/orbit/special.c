@@ -14,7 +14,7 @@
  * is a fold, -1 a pitchfork of a symmetric orbit (its half map) or a period doubling of another, a pair on the
  * unit circle a Neimark-Sacker point.  Where an orbit passes through the axis r = 0 nothing happens to it but
  * that it ceases to turn round the axis; that is reported too (origin-crossing).  Under dry friction an orbit may
- * gain or lose a rest; the return to itself is not smooth there (grazing).
+ * gain or lose a rest, or a flight; the return to itself is not smooth there (grazing).
  *
  * Each of these is the zero of one test (special_test.c): where a test has different signs at the two points,
  * the zero between is located, named, and the first point of the branch that is born there is sought
@@ -322,7 +322,7 @@ static int hides_something(const fst_node *a, const fst_node *b)
            change > 2 * pairs + fst_test_changes(a, b, FST_TEST_MINUS) + fst_test_changes(a, b, FST_TEST_PLUS);
 }
 
-/* Dry friction: between a and b an orbit gains or loses a rest, where a slip just dies, or a push just passes
+/* Dry friction: between a and b an orbit gains or loses a rest or a flight, where a slip just dies, or a push just passes
  * the edge of the cone of static friction.  The place is known as well as solutions can be found beside it,
  * where the return has a kink or a jump. */
 static fst_status report_grazing(const interval *i, fst_error *error)

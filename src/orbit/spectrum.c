@@ -26,7 +26,7 @@
 
 #include "base/dot.h"
 #include "base/error.h"
-#include "ode/flow.h"
+#include "ode/flight.h"
 
 enum { SPECTRUM_WORK = 100 }; /* of LAPACK on a matrix of this size, in evaluations of the equations */
 
@@ -253,11 +253,58 @@ fst_status fst_solution_chain(const fst_family *family, fst_solution *s, int seg
     fst_flow *flow;
     fst_status status = fst_solution_flow(family, s->value, s->y[0], family->tolerance, &model, &flow, error);
     s->segments = segments;
-    for (int i = 1; i < segments && status == FST_OK; ++i) {
+    for (int i = 1; i < s->segments && status == FST_OK; ++i) {
         status = fst_solution_advance(family, flow, s->period * i / segments, error);
         memcpy(s->y[i], flow->step.end, sizeof s->y[i]);
+        if (fst_flight_is_on(flow)) /* which is no state: one segment has none but the first */
+            s->segments = 1;
     }
     fst_flow_free(flow);
     fst_model_free(model);
     return status;
+}
+
+/* The middle of the longest time on the plate, and whether the bead flies at all. */
+static fst_status longest_on_plate(const fst_family *family, fst_flow *flow, double until, double *middle,
+                                   int *flies, fst_error *error)
+{
+    double touched = 0.0, longest = 0.0;
+    fst_status status = FST_OK;
+    while (status == FST_OK && flow->t.high < until) {
+        status = fst_flow_step(flow, until, error);
+        if (status == FST_OK)
+            status = fst_watch_count(family->watch, FST_FLOW_STEP_WORK, error);
+        if (fst_flight_is_on(flow)) {
+            touched = flow->t.high;
+        } else if (flow->t.high - touched > longest) {
+            longest = flow->t.high - touched;
+            *middle = touched + 0.5 * longest;
+        }
+    }
+    *flies = flow->contact.impacts > 0;
+    return status;
+}
+
+fst_status fst_solution_keep_to_plate(const fst_family *family, fst_solution *s, fst_error *error)
+{
+    double middle = 0.0;
+    int flies = 0;
+    for (int pass = 0; pass < 2; ++pass) {
+        fst_model *model;
+        fst_flow *flow;
+        fst_status status =
+            fst_solution_flow(family, s->value, s->y[0], family->tolerance, &model, &flow, error);
+        if (status == FST_OK && pass == 0 && model->world.kinds.flies)
+            status = longest_on_plate(family, flow, 1.5 * s->period, &middle, &flies, error);
+        else if (status == FST_OK && pass == 1)
+            status = fst_solution_advance(family, flow, middle, error);
+        if (status == FST_OK && pass == 1)
+            memcpy(s->y[0], flow->step.end, sizeof s->y[0]);
+        fst_flow_free(flow);
+        fst_model_free(model);
+        if (status != FST_OK || !flies)
+            return status;
+    }
+    s->on_section = 0;
+    return FST_OK;
 }

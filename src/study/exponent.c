@@ -30,7 +30,7 @@
 #include "base/error.h"
 #include "base/watch.h"
 #include "lanes/lanes.h"
-#include "ode/flow.h"
+#include "ode/flight.h"
 #include "ode/neighbours.h"
 #include "study/growth.h"
 
@@ -75,23 +75,22 @@ typedef struct batch {
     int count;
 } batch;
 
-/* Take the parts along |n| and along the flow out of the tangent vector.
+/* Take the parts along |n| and along the flow out of the tangent vector, of so many numbers, at a state.
  * Returns its length, and scales it to 1. */
-static double project(double *y, const double *flow_direction)
+static double project(const double *y, double *tangent, const double *flow_direction, int numbers)
 {
-    double *tangent = y + FST_STATE_SIZE;
     const double *n = y + FST_NX;
     const double along_n = fst_dot(tangent + FST_NX, n, 3) / fst_dot(n, n, 3);
     for (int i = 0; i < 3; ++i)
         tangent[FST_NX + i] -= along_n * n[i];
-    const double speed2 = fst_dot(flow_direction, flow_direction, FST_STATE_SIZE);
+    const double speed2 = fst_dot(flow_direction, flow_direction, numbers);
     if (speed2 > 0) {
-        const double along = fst_dot(tangent, flow_direction, FST_STATE_SIZE) / speed2;
-        for (int i = 0; i < FST_STATE_SIZE; ++i)
+        const double along = fst_dot(tangent, flow_direction, numbers) / speed2;
+        for (int i = 0; i < numbers; ++i)
             tangent[i] -= along * flow_direction[i];
     }
-    const double length = sqrt(fst_dot(tangent, tangent, FST_STATE_SIZE));
-    for (int i = 0; i < FST_STATE_SIZE; ++i)
+    const double length = sqrt(fst_dot(tangent, tangent, numbers));
+    for (int i = 0; i < numbers; ++i)
         tangent[i] /= length;
     return length;
 }
@@ -104,7 +103,7 @@ static double project_lane(batch *b, int l)
         y[i] = b->y[i * width + l];
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         flow_direction[i] = b->slope[i * width + l];
-    const double length = project(y, flow_direction);
+    const double length = project(y, y + FST_STATE_SIZE, flow_direction, FST_STATE_SIZE);
     for (int i = FST_STATE_SIZE; i < FST_TANGENT_DIM; ++i)
         b->y[i * width + l] = y[i];
     return length;
@@ -237,17 +236,23 @@ static double fraction_done(const batch *b)
 
 /* ------------------------------------------------------------------ dry friction */
 
-/* A piece of a motion whose contact slips and sticks is over: the vector's length, scaled to 1. */
+/* A piece of a motion whose contact slips and sticks is over: the vector's length, scaled to 1.  Of a bead in the
+ * air height and climb count as well. */
 static double project_neighbour(fst_neighbours *b, const fst_flow *flow)
 {
-    double y[FST_TANGENT_DIM], direction[FST_STATE_SIZE];
+    double direction[FST_NUMBERS] = {0.0};
+    const double *end = flow->step.end;
+    const int numbers = fst_flight_is_on(flow) ? FST_NUMBERS : FST_STATE_SIZE;
     fst_neighbours_at_equal_times(b, flow);
     fst_flow_slope(flow, direction);
-    memcpy(y, flow->step.end, FST_STATE_SIZE * sizeof *y);
-    memcpy(y + FST_STATE_SIZE, b->d[0], FST_STATE_SIZE * sizeof *y);
-    const double length = project(y, direction);
-    memcpy(b->d[0], y + FST_STATE_SIZE, FST_STATE_SIZE * sizeof *y);
-    b->dt[0] /= length;
+    if (numbers == FST_NUMBERS) {
+        direction[FST_HEIGHT] = end[FST_CLIMB];
+        direction[FST_CLIMB] =
+            -fst_load_double(fst_flow_world(flow), FST_PATH_PULL(&flow->step, FST_PATH_END)->force);
+    }
+    const double length = project(end, b->d[0], direction, numbers);
+    for (int i = numbers; i < FST_NUMBERS; ++i)
+        b->d[0][i] /= length;
     return length;
 }
 

@@ -77,19 +77,26 @@ class Neighbours(Case):
         words = [word for text in sets for word in ("--set", text)]
         return self.refused(command, *DRY, "--set", "run.periods=10", "--set", "run.discard=5", *words, status=1)
 
-    def test_flights_and_held_discs(self):
-        flies = ("friction.mu=0.2", "drive.frequency=84Hz", "impact.restitution=0")
+    def test_held_discs(self):
         held = ("friction.mu=0.5", "drive.frequency=1Hz", "start.r=0.7", "contact.patch=hertz", "contact.radius=1mm")
         results = self.run_keys()
-        for sets, wanted in ((flies, "leaves the plate"), (held, "holds its disc|stops a disc")):
-            for command in ("lyapunov", "orbit"):
-                err = self.refused_by(command, *sets)
-                self.assertRegex(err, wanted)
-                self.assertRegex(err, "not followed through")
-                self.assertNotIn("festoon lyapunov tells", err)
-                for named in re.findall(r"\((\w+)\)", err):
-                    self.assertIn(named, results, err)
-        self.assertIn("(period)", self.refused_by("orbit", *flies))
+        for command in ("lyapunov", "orbit"):
+            err = self.refused_by(command, *held)
+            self.assertRegex(err, "holds the bead's disc|stops a disc")
+            self.assertRegex(err, "not followed through")
+            self.assertNotIn("festoon lyapunov tells", err)
+            for named in re.findall(r"\((\w+)\)", err):
+                self.assertIn(named, results, err)
+        self.assertIn("(period)", self.refused_by("orbit", *held))
+
+    def test_flights(self):
+        """The exponents of a bead that flies; their sum is not the divergence, because impacts contract too."""
+        words = ("lyapunov", *DRY, "--set", "friction.mu=0.2", "--set", "drive.frequency=84Hz", "--set",
+                 "impact.restitution=0.3", "--set", "run.periods=12", "--set", "run.discard=8")
+        spectrum = json.loads(self.good(*words, "--json"))
+        self.assertIsNone(spectrum["divergence"])
+        self.assertEqual(len(spectrum["exponents"]), 9)
+        self.assertIn("impacts have no divergence", self.good(*words))
 
     def run_keys(self):
         return json.loads(self.good("run", *DRY, "--set", "run.periods=2", "--set", "run.discard=1", "--json"))

@@ -2,8 +2,7 @@
  *
  * Where the bead is, the field has neither curl nor divergence.  So the gradient G_ij = dB_i/dx_j is symmetric
  * and traceless, and G's own derivatives T_ijk = dG_ij/dx_k are so in every pair of indices: 3 + 5 + 7 numbers.
- * G has all that a height changes of B.  Of T only what moves along x and y change is ever asked for: tangents
- * are those of beads that stay at their height.
+ * G has all that a height changes of B, and the derivatives of G along x and y are all of T.
  *
  * A measured field has some curl, because it is not exact.  Its force keeps the energy all the same if it is
  * the derivative of the energy -u.B by the place, that is G^T u with dB_x/dy and dB_y/dx told apart.  So these
@@ -70,6 +69,24 @@ static inline void FN(gradient_change)(const FN(bend) * t, REAL ex, REAL ey, FN(
     dg->yy = REAL_MULADD(x, t->yxy, y * t->yyy);
     dg->xz = REAL_MULADD(zx, t->xxz, zy * t->xyz);
     dg->yz = REAL_MULADD(zx, t->xyz, zy * t->yyz);
+}
+
+/* What dB and dG have besides as the place rises by ez, in a field without curl (no bead flies beside a measured
+ * one). */
+static inline void FN(add_rise)(const FN(local_field) * at, REAL ez, REAL db[3], FN(gradient) * dg)
+{
+    const FN(gradient) *g = &at->gradient;
+    const FN(bend) *t = &at->bend;
+    const REAL z = t->scale * ez, zz = t->vertical * z;
+    db[0] = REAL_MULADD(g->xz, ez, db[0]);
+    db[1] = REAL_MULADD(g->yz, ez, db[1]);
+    db[2] = REAL_NEGMULADD(g->xx + g->yy, ez, db[2]);
+    dg->xx = REAL_MULADD(zz, t->xxz, dg->xx);
+    dg->xy = REAL_MULADD(zz, t->xyz, dg->xy);
+    dg->yx = REAL_MULADD(zz, t->xyz, dg->yx);
+    dg->yy = REAL_MULADD(zz, t->yyz, dg->yy);
+    dg->xz = REAL_NEGMULADD(z, t->xxx + t->xyy, dg->xz);
+    dg->yz = REAL_NEGMULADD(z, t->xxy + t->yyy, dg->yz);
 }
 
 /* For a source that has no quicker way to B and G than its whole local field: defines NAME_field of its

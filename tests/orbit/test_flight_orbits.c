@@ -1,0 +1,218 @@
+/* Orbits on which the bead flies: multipliers against the eigenvalues of the return by central differences of the
+ * flow; branches from orbits that stay on the plate to orbits that do not; exponents of two programs.
+ * tests: orbit/dry_carry.c ode/neighbours.c orbit/spectrum.c orbit/curve.c study/exponent.c orbit/lyapunov.c */
+#include "branches.h"
+#include "physics.h"
+
+#include <string.h>
+
+#include "ode/flight.h"
+#include "orbit/describe.h"
+#include "study/exponent.h"
+
+static fst_params flying(double mu, double restitution, double hertz)
+{
+    fst_params params = fst_default_params();
+    params.friction_law = FST_FRICTION_COULOMB;
+    params.friction_mu = mu;
+    params.impact_restitution = restitution;
+    params.drive_frequency = hertz;
+    return params;
+}
+
+/* Guesses, from branches over the drive. */
+typedef struct guess {
+    double mu, restitution, hertz;
+    int symmetric, flights;
+    double period; /* of the whole orbit */
+    double state[FST_STATE_SIZE];
+} guess;
+
+static const guess GUESSES[] = {
+    {0.1,
+     0.0,
+     79.9859,
+     0,
+     1,
+     4.170737,
+     {0, 1.4133912, -0.1574617, -0.005229, -0.1821267, -0.9628414, 0.1994109, -2.6281585, 1.1399177,
+      -2.9918984}},
+    {0.1,
+     0.0,
+     90.7638,
+     1,
+     2,
+     3.542633,
+     {1.0214562, 0.2127376, 0.0064963, 0.0456239, 0.2476305, -0.8786286, 0.408278, 1.1179365, -1.1207532,
+      -3.0585796}},
+    {0.05,
+     0.3,
+     94.4214,
+     0,
+     1,
+     6.201686,
+     {0, 1.1453763, 0.161821, -0.0064303, -0.8303022, 0.5336579, 0.1606473, -0.7333838, -0.3212419, 2.5930643}},
+    {0.1,
+     0.5,
+     89.8193,
+     1,
+     2,
+     3.598032,
+     {1.0316937, 0.2215947, 0.0042795, 0.0534906, 0.1902389, -0.8751759, 0.4448328, 0.8757015, -1.2536019,
+      -2.8049367}},
+    {0.2,
+     0.7,
+     87.44952,
+     1,
+     2,
+     3.702623,
+     {0.0976273, 1.0440339, -0.083679, 0.0067935, -0.5075068, -0.5177271, -0.6887637, -1.2425026, 4.0544262,
+      -2.3039083}},
+};
+
+/* The state after one chain of the orbit, from `state`, in the basis at its first state. */
+static void go_round(const fst_solution *s, const fst_family *family, const double *state,
+                     double basis[FST_STATE_SIZE][FST_TANGENT_SIZE], double *part)
+{
+    fst_model *model;
+    fst_flow *flow;
+    fst_error error;
+    double y[FST_STATE_SIZE];
+    if (fst_solution_flow(family, s->value, state, 1e-13, &model, &flow, &error) != FST_OK ||
+        fst_solution_advance(family, flow, s->period, &error) != FST_OK)
+        fail_msg("%s", error.sentence);
+    memcpy(y, flow->step.end, sizeof y);
+    fst_flow_free(flow);
+    fst_model_free(model);
+    if (s->symmetric)
+        fst_apply_s2(y, y);
+    fst_tangent_part(basis, y, part);
+}
+
+/* The eigenvalues of the return by differences of fourth order; one of them is that of the flow direction. */
+static void by_differences(const fst_solution *s, const fst_family *family, double *re, double *im)
+{
+    static const double weight[4] = {1.0 / 12.0, -8.0 / 12.0, 8.0 / 12.0, -1.0 / 12.0}, at[4] = {-2, -1, 1, 2};
+    const double h = 3e-5;
+    double basis[FST_STATE_SIZE][FST_TANGENT_SIZE], matrix[FST_TANGENT_SIZE * FST_TANGENT_SIZE] = {0.0};
+    fst_tangent_basis(s->y[0], basis);
+    for (int c = 0; c < FST_TANGENT_SIZE; ++c)
+        for (int k = 0; k < 4; ++k) {
+            double y[FST_STATE_SIZE], part[FST_TANGENT_SIZE];
+            for (int i = 0; i < FST_STATE_SIZE; ++i)
+                y[i] = s->y[0][i] + at[k] * h * basis[i][c];
+            go_round(s, family, y, basis, part);
+            for (int j = 0; j < FST_TANGENT_SIZE; ++j)
+                matrix[j * FST_TANGENT_SIZE + c] += weight[k] * part[j] / h;
+        }
+    assert_int_equal(family->lapack->eigen(FST_TANGENT_SIZE, matrix, re, im, NULL), 0);
+}
+
+static void orbit_from(const guess *g, double restitution, fst_family *family, fst_solution *s)
+{
+    const fst_params params = flying(g->mu, restitution, g->hertz);
+    fst_error error;
+    if (fst_family_begin(family, &params, NULL, &error) != FST_OK)
+        fail_msg("%s", error.sentence);
+    memset(s, 0, sizeof *s);
+    memcpy(s->y[0], g->state, sizeof s->y[0]);
+    const double *n = s->y[0] + FST_NX, length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (int i = FST_NX; i <= FST_NZ; ++i)
+        s->y[0][i] /= length;
+    s->symmetric = g->symmetric;
+    s->period = g->symmetric ? 0.5 * g->period : g->period;
+    if (fst_solution_chain(family, s, 1, &error) != FST_OK ||
+        fst_solution_correct(family, s, NULL, &error) != FST_OK ||
+        fst_solution_spectrum(family, s, &error) != FST_OK)
+        fail_msg("mu %g, e %g: %s", g->mu, restitution, error.sentence);
+}
+
+static void multipliers_against_differences(void **unused)
+{
+    (void)unused;
+    for (size_t k = 0; k < sizeof GUESSES / sizeof *GUESSES; ++k)
+        for (int more = 0; more < 2; ++more) {
+            fst_family family;
+            fst_solution s;
+            fst_description d;
+            fst_error error;
+            double re[FST_TANGENT_SIZE], im[FST_TANGENT_SIZE], off = 0.0;
+            const double restitution = GUESSES[k].restitution + 0.01 * more;
+            orbit_from(&GUESSES[k], restitution, &family, &s);
+            if (fst_describe_orbit(&family, &s, 0, &d, &error) != FST_OK)
+                fail_msg("%s", error.sentence);
+            assert_int_equal(d.flights, GUESSES[k].flights);
+            by_differences(&s, &family, re, im);
+            for (int i = 0; i < s.multipliers; ++i) {
+                double nearest = INFINITY;
+                for (int j = 0; j < FST_TANGENT_SIZE; ++j)
+                    nearest = fmin(nearest, hypot(s.re[i] - re[j], s.im[i] - im[j]));
+                off = fmax(off, nearest);
+            }
+            printf("mu %g, e %g, %g Hz: %d iterations, residual %.2g, trivial error %.2g, multipliers off by "
+                   "%.2g\n",
+                   GUESSES[k].mu, restitution, GUESSES[k].hertz, s.iterations, s.residual, s.trivial_error,
+                   off);
+            assert_true(off < 1e-7 && s.trivial_error < 1e-9);
+        }
+}
+
+/* From an orbit that stays on the plate over the place where it begins to fly, and on to where the bead flies for
+ * a third of the time, which the border of the range ends. */
+static void branch_through_lift_off(void **unused)
+{
+    (void)unused;
+    fst_params params = flying(0.1, 0.3, 80.0);
+    fst_branch_options o = over_omega(FST_BRANCH_COUNTER, 75.0, 92.0);
+    o.key = "drive.frequency";
+    fst_branch branch = followed(&params, &o);
+    const fst_special *grazing = special_near(&branch, FST_SPECIAL_GRAZING, 88.8279);
+    int beyond = 0;
+    for (size_t i = 0; i < branch.point_count; ++i) {
+        const fst_branch_point *p = &branch.points[i];
+        if (p->branch != 0 || p->value < 88.0)
+            continue;
+        fst_solution s = {.segments = 1, .symmetric = 1, .period = 0.5 * p->period, .value = p->value};
+        fst_family family;
+        fst_description d;
+        fst_error error;
+        memcpy(s.y[0], p->state, sizeof s.y[0]);
+        if (fst_family_begin(&family, &params, "drive.frequency", &error) != FST_OK ||
+            fst_describe_orbit(&family, &s, 0, &d, &error) != FST_OK)
+            fail_msg("%s", error.sentence);
+        assert_int_equal(d.flights, p->value > grazing->value ? 2 : 0);
+        beyond += p->value == 92.0 && d.means.flying > 0.3;
+    }
+    assert_int_equal(beyond, 1);
+    fst_branch_free(&branch);
+}
+
+/* The greatest exponent of a bead that hops chaotically: of one vector in the air and on the plate, and of nine
+ * whose pieces end on the plate. */
+static void exponents_of_hops(void **unused)
+{
+    (void)unused;
+    fst_params params = flying(0.201652, 0.76637, 80.41717);
+    fst_lyapunov l;
+    fst_error error;
+    params.plate_gravity = 44.58906;
+    params.run_periods = 500;
+    params.run_discard = 100;
+    if (fst_lyapunov_find(&params, NULL, &l, &error) != FST_OK)
+        fail_msg("%s", error.sentence);
+    params.run_rtol = 1e-9;
+    const fst_run_result run = run_of(&params);
+    printf("exponents %.4g +- %.2g and %.4g +- %.2g, %.3g of the time in the air\n", l.exponents[0],
+           l.errors[0], run.largest_exponent, run.largest_exponent_error, run.flying);
+    assert_true(run.flying > 0.02 && run.largest_exponent > 0.02 && l.flow_direction >= 0);
+    CHECK_CLOSE(l.exponents[0], run.largest_exponent, 3.0 * (l.errors[0] + run.largest_exponent_error));
+    CHECK_CLOSE(l.exponents[l.flow_direction], 0.0, 4.0 * l.errors[l.flow_direction]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(multipliers_against_differences),
+                                       cmocka_unit_test(branch_through_lift_off),
+                                       cmocka_unit_test(exponents_of_hops)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
