@@ -55,7 +55,7 @@ enum { STAGES = 12 };
 /* Whether the derivative by the parameter is taken as a difference of setups. */
 static int differs(const fst_neighbours *b)
 {
-    return b->parameter >= 0 && !b->exact;
+    return b->parameter >= 0 && b->exact == 0.0;
 }
 
 /* By how much v differs in a setup if the contact slips as it does in the motion: the slip depends on eps. */
@@ -81,17 +81,23 @@ static void at_same_slip(const fst_neighbours *b, const fst_world_double *c, con
         by[i] = (above[i] - below[i]) / b->spread;
 }
 
+/* Whether the magnet's field is the same in another setup: most parameters are not the magnet's. */
+static int has_field_of(const fst_world_double *other, const fst_world_double *c)
+{
+    return other->height == c->height && memcmp(&other->source, &c->source, sizeof c->source) == 0;
+}
+
 /* d(state)/dtheta changes by this with the parameter, and the pace by *pace, at an unchanged slip: a slip that
  * is nearly nothing would not be one in a setup with another eps. */
 static void by_parameter(const fst_neighbours *b, const fst_world_double *c, const fst_modes_double *m,
-                         const double *y, double *by, double *pace)
+                         const double *y, const fst_linear_double *linear, double *by, double *pace)
 {
     memset(by, 0, FST_STATE_SIZE * sizeof *by);
     *pace = 0.0;
     if (b->parameter < 0)
         return;
-    if (b->exact) {
-        const double here = fst_pace_double(c, m, y);
+    if (b->exact != 0.0) {
+        const double here = b->exact * fst_pace_double(c, m, y);
         fst_rhs_by_omega_double(y, by);
         for (int i = 0; i < FST_STATE_SIZE; ++i)
             by[i] *= here;
@@ -100,14 +106,17 @@ static void by_parameter(const fst_neighbours *b, const fst_world_double *c, con
     double rate[2][FST_STATE_SIZE], paces[2];
     for (int side = 0; side < 2; ++side) {
         const fst_world_double *other = side ? &b->above : &b->below;
-        fst_pull_double unused;
+        fst_linear_double there = {.at = linear->at};
         double state[FST_NUMBERS], change[2];
         memcpy(state, y, sizeof state);
         same_slip(c, other, y, change);
         state[FST_VX] += change[0];
         state[FST_VY] += change[1];
         paces[side] = fst_pace_double(other, m, state);
-        fst_rhs_double(other, m, other->omega, state, rate[side], &unused);
+        if (has_field_of(other, c))
+            fst_linearise_in_field_double(other, m, other->omega, state, &there, rate[side]);
+        else
+            fst_linearise_double(other, m, other->omega, state, &there, rate[side]);
     }
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         by[i] = (paces[1] * rate[1][i] - paces[0] * rate[0][i]) / b->spread;
@@ -180,7 +189,7 @@ static void slopes(const fst_neighbours *b, const fst_world_double *c, const fst
     double f[FST_STATE_SIZE], by[FST_STATE_SIZE], seen[FST_STATE_SIZE], pace_by;
     const double pace = fst_pace_double(c, m, y);
     fst_linearise_double(c, m, omega, y, &linear, f);
-    by_parameter(b, c, m, y, by, &pace_by);
+    by_parameter(b, c, m, y, &linear, by, &pace_by);
     for (int column = 0; column < b->count; ++column) {
         neighbour(b, c, y, column, d[column], seen);
         const double faster = fst_pace_change_double(c, m, y, seen);
@@ -205,10 +214,10 @@ static void carry_along_step(fst_neighbours *b, const fst_flow *flow)
     for (int stage = 0; stage <= STAGES; ++stage) { /* the last is the end of the step */
         memcpy(at, b->d, sizeof at);
         for (int before = 0; before < stage; ++before) {
-            const double weight = s->h * weights[stage][before];
-            for (int column = 0; column < b->count && weight != 0.0; ++column)
-                for (int i = 0; i < FST_STATE_SIZE; ++i)
-                    at[column][i] += weight * k[before][column][i];
+            const double weight = s->h * weights[stage][before], *slope = k[before][0];
+            double *to = at[0];
+            for (int i = 0; i < b->count * FST_STATE_SIZE && weight != 0.0; ++i)
+                to[i] += weight * slope[i];
         }
         if (stage < STAGES)
             slopes(b, FST_WORLD(s), FST_MODES(s), s->omega, s->stage[stage], at, k[stage], kt[stage]);
