@@ -18,14 +18,13 @@ typedef struct FN(linear) {
     FN(contact) contact;
 } FN(linear);
 
-static inline __attribute__((always_inline)) void
-FN(linearise)(const FN(world) * c, const FN(modes) * m, REAL omega, const REAL *y, FN(linear) * l, REAL *dy)
+/* From the field at the place, l->at. */
+static inline __attribute__((always_inline)) void FN(linearise_in_field)(const FN(world) * c,
+                                                                         const FN(modes) * m, REAL omega,
+                                                                         const REAL *y, FN(linear) * l,
+                                                                         REAL *dy)
 {
-#ifdef FST_COUNT_EVALUATION
-    FST_COUNT_EVALUATION(); /* as in magnetic_pull() */
-#endif
     const REAL *n = y + FST_NX, *b = l->at.b;
-    FN(source_look)(&c->source, &c->kinds, y[FST_X], y[FST_Y], FN(height_of)(c, m, y), &l->at);
     FN(pull) p;
     const REAL s = p.strength = l->strength = FN(strength)(c, n, b);
     for (int i = 0; i < 3; ++i) {
@@ -39,6 +38,16 @@ FN(linearise)(const FN(world) * c, const FN(modes) * m, REAL omega, const REAL *
     l->contact = FN(contact_of)(c, m, y, &p);
     FN(kinematics)(omega, y, dy);
     FN(dynamics)(c, m, omega, y, &p, dy);
+}
+
+static inline __attribute__((always_inline)) void
+FN(linearise)(const FN(world) * c, const FN(modes) * m, REAL omega, const REAL *y, FN(linear) * l, REAL *dy)
+{
+#ifdef FST_COUNT_EVALUATION
+    FST_COUNT_EVALUATION(); /* as in magnetic_pull() */
+#endif
+    FN(source_look)(&c->source, &c->kinds, y[FST_X], y[FST_Y], FN(height_of)(c, m, y), &l->at);
+    FN(linearise_in_field)(c, m, omega, y, l, dy);
 }
 
 /* dF, and in `turning` ds B + s dB, as the field changes by db, its gradient by dg, and n by dn. */

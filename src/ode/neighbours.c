@@ -67,7 +67,7 @@ enum { STAGES = 12 };
 /* Whether the derivative by the parameter is taken as a difference of setups. */
 static int differs(const fst_neighbours *b)
 {
-    return b->parameter >= 0 && !b->exact;
+    return b->parameter >= 0 && b->exact == 0.0;
 }
 
 /* By how much v differs in a setup if the contact slips as it does in the motion: the slip depends on eps. */
@@ -93,16 +93,22 @@ static void at_same_slip(const fst_neighbours *b, const fst_world_double *c, con
         by[i] = (above[i] - below[i]) / b->spread;
 }
 
+/* Whether the magnet's field is the same in another setup: most parameters are not the magnet's. */
+static int has_field_of(const fst_world_double *other, const fst_world_double *c)
+{
+    return other->height == c->height && memcmp(&other->source, &c->source, sizeof c->source) == 0;
+}
+
 /* The derivatives of a motion's numbers by theta change by this with the parameter, at an unchanged slip: a slip
  * that is nearly nothing would not be one in a setup with another eps. */
 static void by_parameter(const fst_neighbours *b, const fst_world_double *c, const fst_modes_double *m,
-                         const double *y, double *by)
+                         const double *y, const fst_linear_double *linear, double *by)
 {
     memset(by, 0, FST_NUMBERS * sizeof *by);
     if (b->parameter < 0)
         return;
-    if (b->exact) {
-        const double here = fst_pace_double(c, m, y);
+    if (b->exact != 0.0) {
+        const double here = b->exact * fst_pace_double(c, m, y);
         fst_rhs_by_omega_double(y, by);
         for (int i = 0; i < FST_STATE_SIZE; ++i)
             by[i] *= here;
@@ -111,15 +117,19 @@ static void by_parameter(const fst_neighbours *b, const fst_world_double *c, con
     double rate[2][FST_STATE_SIZE], paces[2], climbs[2];
     for (int side = 0; side < 2; ++side) {
         const fst_world_double *other = side ? &b->above : &b->below;
-        fst_pull_double pull;
-        double state[FST_NUMBERS], change[2];
+        fst_linear_double there = {.at = linear->at};
+        double state[FST_NUMBERS], change[2], force[3];
         memcpy(state, y, sizeof state);
         same_slip(c, other, y, change);
         state[FST_VX] += change[0];
         state[FST_VY] += change[1];
         paces[side] = fst_pace_double(other, m, state);
-        fst_rhs_double(other, m, other->omega, state, rate[side], &pull);
-        climbs[side] = -fst_load_double(other, pull.force);
+        if (has_field_of(other, c))
+            fst_linearise_in_field_double(other, m, other->omega, state, &there, rate[side]);
+        else
+            fst_linearise_double(other, m, other->omega, state, &there, rate[side]);
+        fst_times_gradient_double(&there.at.gradient, there.dipole, force);
+        climbs[side] = -fst_load_double(other, force);
     }
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         by[i] = (paces[1] * rate[1][i] - paces[0] * rate[0][i]) / b->spread;
@@ -197,7 +207,7 @@ static void slopes(const fst_neighbours *b, const fst_world_double *c, const fst
     fst_linearise_double(c, m, omega, y, &linear, f);
     if (c->kinds.flies && !flies) /* the step that ends at lift-off, N = 0, belongs to N > 0 all the way */
         linear.contact.load = fmax(linear.contact.load, DBL_MIN);
-    by_parameter(b, c, m, y, by);
+    by_parameter(b, c, m, y, &linear, by);
     for (int column = 0; column < b->count; ++column) {
         neighbour(b, c, y, column, d[column], seen);
         if (flies) {
@@ -209,6 +219,7 @@ static void slopes(const fst_neighbours *b, const fst_world_double *c, const fst
         for (int i = 0; i < FST_STATE_SIZE; ++i)
             k[column][i] = pace * k[column][i] + faster * f[i];
         k[column][FST_STEP_TIME] = faster;
+        k[column][FST_HEIGHT] = k[column][FST_CLIMB] = 0.0;
     }
     for (int i = 0; i < (flies ? FST_NUMBERS : FST_HEIGHT) && b->parameter >= 0; ++i)
         k[b->parameter][i] += by[i];
@@ -219,15 +230,14 @@ static void carry_along_step(fst_neighbours *b, const fst_flow *flow)
 {
     static const double weights[16][15] = DOP_WEIGHTS;
     const fst_bead_step_double *s = &flow->step;
-    const int numbers = fst_in_flight_double(FST_MODES(s)) ? FST_NUMBERS : FST_HEIGHT;
     double k[STAGES][FST_NEIGHBOURS][FST_NUMBERS], at[FST_NEIGHBOURS][FST_NUMBERS];
     for (int stage = 0; stage <= STAGES; ++stage) { /* the last is the end of the step */
         memcpy(at, b->d, sizeof at);
         for (int before = 0; before < stage; ++before) {
-            const double weight = s->h * weights[stage][before];
-            for (int column = 0; column < b->count && weight != 0.0; ++column)
-                for (int i = 0; i < numbers; ++i)
-                    at[column][i] += weight * k[before][column][i];
+            const double weight = s->h * weights[stage][before], *slope = k[before][0];
+            double *to = at[0];
+            for (int i = 0; i < b->count * FST_NUMBERS && weight != 0.0; ++i)
+                to[i] += weight * slope[i];
         }
         if (stage < STAGES)
             slopes(b, FST_WORLD(s), FST_MODES(s), s->omega, s->stage[stage], at, k[stage]);

@@ -9,7 +9,7 @@ enum { FST_NEIGHBOURS = 10 };
 typedef struct fst_neighbours {
     int count;
     int parameter; /* the one whose setup differs instead of its start; -1: none does */
-    int exact;     /* by the drive's omega alone */
+    double exact;  /* the parameter sets the drive's omega alone: their ratio; else 0 */
     double spread; /* else: of the parameter between these two setups */
     fst_world_double below, above;
     /* By how much the numbers of their motions differ: the states; at equal theta the clocks (FST_STEP_TIME), by

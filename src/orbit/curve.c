@@ -37,6 +37,26 @@ static double length_of(const fst_family *family, const fst_solution *s, const f
     return sqrt(fst_direction_product(family, s, d, d));
 }
 
+/* Whether an orbit is one of half the period that is gone round twice. */
+static int is_twice_round(const fst_solution *s)
+{
+    return s->segments >= 2 && !s->symmetric && fst_state_distance(s->y[0], s->y[s->segments / 2]) < 1e-6;
+}
+
+/* Whether what was found is the curve's continuation over a step of length h: no further from the prediction than
+ * `bound` of that, with a tangent that turned no further than to this cosine. */
+static fst_status goes_on(const fst_family *family, const fst_node *here, const fst_solution *predicted,
+                          const fst_solution *found, double h, double bound, double cosine, fst_error *error)
+{
+    fst_direction miss;
+    fst_direction_between(predicted, found, &miss);
+    if (length_of(family, found, &miss) <= bound * h && is_twice_round(found) <= is_twice_round(&here->s) &&
+        fst_direction_product(family, found, &found->tangent, &here->s.tangent) >= cosine)
+        return FST_OK;
+    return fst_fail(error, FST_NO_CONVERGENCE, "continuation", "a step of %.3g was too long at %.10g", h,
+                    here->s.value);
+}
+
 /* One step of length h from `here` along its tangent, bent as the curve bent in the step before (`last`, NULL
  * at the start).  FST_NO_CONVERGENCE also where the solution found is not the curve's continuation: too far
  * from the prediction, or with a tangent of another direction. */
@@ -57,15 +77,15 @@ static fst_status try_step(const fst_curve *curve, const fst_node *last, const f
     fst_solution found = predicted;
     fst_status status = fst_solution_approach(family, &found, &here->s.tangent, error);
     if (status == FST_OK)
+        status =
+            goes_on(family, here, &predicted, &found, h, over_kink ? 3.0 : 0.3, over_kink ? -0.2 : 0.94, error);
+    if (status == FST_OK)
         status = fst_solution_correct(family, &found, &here->s.tangent, error);
+    if (status == FST_OK)
+        status =
+            goes_on(family, here, &predicted, &found, h, over_kink ? 2.0 : 0.25, over_kink ? 0.0 : 0.95, error);
     if (status != FST_OK)
         return status;
-    fst_direction_between(&predicted, &found, &miss);
-    const double turn = fst_direction_product(family, &found, &found.tangent, &here->s.tangent);
-    const double bound = over_kink ? 2.0 : 0.25;
-    if (length_of(family, &found, &miss) > bound * h || turn < (over_kink ? 0.0 : 0.95))
-        return fst_fail(error, FST_NO_CONVERGENCE, "continuation", "a step of %.3g was too long at %.10g", h,
-                        here->s.value);
     const int iterations = found.iterations + (found.segments > 0);
     status = fst_node_make(family, &found, next, error);
     next->s.iterations = iterations;

@@ -1,7 +1,7 @@
 /* family.c - setups that differ in one parameter, and tangent vectors carried along by the flow.
  *
  * Whatever is followed over a parameter p is a family: the same scene, with another value in one field.  A
- * setup is one member: a model, and, unless p is the drive's omega, whose derivative is known exactly, the
+ * setup is one member: a model, and, unless p is the drive's rate, whose derivative is known exactly, the
  * worlds of two neighbours, from which the derivative of the equations by p is taken as a difference.
  *
  * Newton's method and multipliers need to know how the end y(T) of a motion changes with its start and with p.
@@ -276,9 +276,13 @@ fst_status fst_family_setup(const fst_family *family, double value, fst_setup *s
     fst_status status = model_at(family, value, &setup->model, error);
     setup->watch = family->watch;
     setup->differs = family->key >= 0;
-    setup->exact = setup->differs && strcmp(fst_param_at(family->key)->key, "drive.omega") == 0;
-    if (status != FST_OK || !setup->differs || setup->exact)
+    if (status != FST_OK || !setup->differs)
         return status;
+    const char *key = fst_param_at(family->key)->key;
+    if (value != 0.0 && (strcmp(key, "drive.omega") == 0 || strcmp(key, "drive.frequency") == 0)) {
+        setup->exact = setup->model.groups.omega / value;
+        return FST_OK;
+    }
     fst_model below, above;
     const double step = 1e-5 * (fabs(value) > 0 ? fabs(value) : family->scale);
     status = model_at(family, value - step, &below, error);
@@ -297,8 +301,10 @@ void fst_setup_by_parameter(const fst_setup *setup, const double *y, double *by)
     memset(by, 0, FST_STATE_SIZE * sizeof *by);
     if (!setup->differs)
         return;
-    if (setup->exact) {
+    if (setup->exact != 0.0) {
         fst_rhs_by_omega_double(y, by);
+        for (int i = 0; i < FST_STATE_SIZE; ++i)
+            by[i] *= setup->exact;
         return;
     }
     const fst_motion_double at = fst_motion_at(&setup->model.world, y, setup->model.params.run_rtol);

@@ -28,13 +28,13 @@ typedef struct fst_family {
     double made_at;
 } fst_family;
 
-/* One of them: the world, and two neighbours for the derivative by the parameter.  The drive's omega
- * needs none, for its derivative is exact; that of the others enters Newton's matrix alone, and so bears on the
- * number of iterations, not on the result. */
+/* One of them: the world, and two neighbours for the derivative by the parameter.  The drive's omega and its
+ * frequency need none, for their derivative is exact; that of the others enters Newton's matrix alone, and so
+ * bears on the number of iterations, not on the result. */
 typedef struct fst_setup {
     fst_model model;
-    int exact;   /* the parameter is omega */
-    int differs; /* the derivative by the parameter is wanted */
+    double exact; /* the parameter sets omega alone: their ratio; else 0 */
+    int differs;  /* the derivative by the parameter is wanted */
     fst_world_double below, above;
     double spread;    /* of the parameter between them */
     fst_watch *watch; /* the family's */

@@ -333,6 +333,8 @@ fst_status fst_solution_approach(const fst_family *family, fst_solution *s, cons
     fst_status status = fst_newton_equations(&eased, s, &l, error);
     if (status == FST_OK)
         status = solve(family, s, &l, across, 0, &step, error);
+    if (status == FST_OK)
+        status = find_tangent(family, s, &l, across, error);
     if (status != FST_OK)
         return status;
     const double size = sqrt(fst_direction_product(family, s, &step, &step));

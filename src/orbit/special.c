@@ -325,29 +325,62 @@ static int hides_something(const fst_node *a, const fst_node *b)
 /* Dry friction: between a and b an orbit gains or loses a rest or a flight, where a slip just dies, or a push just passes
  * the edge of the cone of static friction.  The place is known as well as solutions can be found beside it,
  * where the return has a kink or a jump. */
-static fst_status report_grazing(const interval *i, fst_error *error)
+static void enclose_grazing(const interval *i, double at[2], fst_node beside[2])
 {
     enum { HALVINGS = 14 };
-    fst_node at = *i->a, middle;
+    fst_node middle;
     fst_error ignored;
-    double here = 0.0, beyond = 1.0;
-    for (int k = 0; k < HALVINGS && (beyond - here) * i->b->length > 1e-8; ++k) {
-        const double x = 0.5 * (here + beyond);
+    at[0] = 0.0, at[1] = 1.0;
+    beside[0] = *i->a, beside[1] = *i->b;
+    for (int k = 0; k < HALVINGS && (at[1] - at[0]) * i->b->length > 1e-8; ++k) {
+        const double x = 0.5 * (at[0] + at[1]);
         if (fst_node_between(i->family, i->a, i->b, x, &middle, &ignored) != FST_OK)
             break;
-        if (middle.captures == i->a->captures) {
-            here = x;
-            at = middle;
-        } else {
-            beyond = x;
-        }
+        const int side = middle.captures != i->a->captures;
+        at[side] = x;
+        beside[side] = middle;
     }
-    const fst_status status = fst_watch_ask(i->family->watch, error);
-    return status == FST_OK ? tell(i, FST_SPECIAL_GRAZING, &at, 0, NULL, error) : status;
+}
+
+static fst_status look_between(const fst_family *family, const fst_curve_sink *sink, const fst_node *a,
+                               const fst_node *b, fst_curve_end *end, fst_error *error);
+
+/* Tests may jump there: they are looked at on either side, and across only where it is hardly known. */
+static fst_status report_grazing(const interval *i, fst_error *error)
+{
+    const double much = 1e-3;
+    double at[2];
+    fst_node beside[2], last = *i->b;
+    enclose_grazing(i, at, beside);
+    fst_status status = fst_watch_ask(i->family->watch, error);
+    const double gap = (at[1] - at[0]) * i->b->length;
+    beside[0].length = at[0] * i->b->length;
+    last.length = (1.0 - at[1]) * i->b->length;
+    if (status == FST_OK && at[0] > 0.0)
+        status = look_between(i->family, i->sink, i->a, &beside[0], i->end, error);
+    if (status == FST_OK && i->end->type == FST_END_NONE)
+        status = tell(i, FST_SPECIAL_GRAZING, &beside[0], 0, NULL, error);
+    if (status == FST_OK && i->end->type == FST_END_NONE && gap > much * i->b->length) {
+        fst_node other = beside[1];
+        other.length = gap;
+        status = look_between(i->family, i->sink, &beside[0], &other, i->end, error);
+    }
+    if (status == FST_OK && i->end->type == FST_END_NONE && at[1] < 1.0)
+        status = fst_specials_between(i->family, i->sink, &beside[1], &last, i->end, error);
+    return status;
 }
 
 fst_status fst_specials_between(const fst_family *family, const fst_curve_sink *sink, const fst_node *a,
                                 const fst_node *b, fst_curve_end *end, fst_error *error)
+{
+    const interval i = {family, sink, a, b, end};
+    return a->s.segments > 0 && a->captures != b->captures ? report_grazing(&i, error)
+                                                           : look_between(family, sink, a, b, end, error);
+}
+
+/* What the tests show. */
+static fst_status look_between(const fst_family *family, const fst_curve_sink *sink, const fst_node *a,
+                               const fst_node *b, fst_curve_end *end, fst_error *error)
 {
     const interval i = {family, sink, a, b, end};
     fst_node at;
@@ -362,11 +395,7 @@ fst_status fst_specials_between(const fst_family *family, const fst_curve_sink *
                    : fst_specials_between(family, sink, &at, &last, end, error);
     }
     const int turn = fst_test_changes(a, b, FST_TEST_FOLD);
-    const int grazes = a->s.segments > 0 && a->captures != b->captures;
-    fst_status status = grazes ? report_grazing(&i, error) : FST_OK;
-    if (status != FST_OK)
-        return status;
-    status = turn ? report_turn(&i, error) : FST_OK;
+    fst_status status = turn ? report_turn(&i, error) : FST_OK;
     for (int test = FST_TEST_FOLD + 1; test < FST_TEST_COUNT && end->type == FST_END_NONE && status == FST_OK;
          ++test) {
         if (!fst_test_changes(a, b, test) || (test == FST_TEST_PLUS && turn))

@@ -164,6 +164,7 @@ static void columns_against_differences(void **unused)
         {"farago2020", "model.kappa", "coulomb", "farago2020", 0.2, NAN, NAN, 24.0, 4, 4, 4e-7, NULL, 0, 0},
         {"by eps", "model.eps", "coulomb", "rigid", 0.2, NAN, NAN, 24.0, 5, 5, 2e-7, NULL, 0, 0},
         {"by omega", "drive.omega", "coulomb", "rigid", 0.2, NAN, NAN, 24.0, 5, 5, 2e-7, NULL, 0, 0},
+        {"by frequency", "drive.frequency", "coulomb", "rigid", 0.2, NAN, NAN, 24.0, 5, 5, 2e-7, NULL, 0, 0},
         {"static > sliding", "friction.mu", "coulomb", "rigid", 0.2, 0.25, NAN, 24.0, 4, 4, 1e-8, NULL, 0, 0},
         {"by static friction", "friction.mu_static", "coulomb", "rigid", 0.2, 0.25, NAN, 24.0, 4, 4, 1e-8, NULL,
          0, 0},
