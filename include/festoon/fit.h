@@ -167,7 +167,8 @@ FST_API fst_status fst_fit_points(const fst_params *params, const fst_points *po
 FST_API void fst_fit_free(fst_fit *fit);
 
 /* The same from one track, its places against the model's path: centre, phases, the exact drive and, if its
- * error is given, the exposure are unknowns too.  `points` counts coordinates, and chi^2 says nothing, for the
+ * error is given, the exposure are unknowns too.  Where the track has the slip (fst_turning), it is fitted with them, with the
+ * bead's radius as one more unknown.  `points` counts coordinates, and chi^2 says nothing, for the
  * noise is measured by what is left over.  Rows of the track may become rejected, as by fst_measure_track(). */
 FST_API fst_status fst_fit_track(const fst_params *params, fst_track *track, const fst_fit_options *options,
                                  fst_fit *fit, fst_error *error);

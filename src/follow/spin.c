@@ -317,7 +317,7 @@ static void tell(const follow_turning *t, const follow_turn *f, const window *w,
     double v[2], factor, off[2] = {0.0, 0.0}, rate = 0.0, flat = 0.0;
     const double *c = w->covariance;
     for (int i = 0; i < 3; ++i) {
-        told->n[i] = fst_dot(w->turn[i], axis, 3);
+        told->n[i] = fst_dot(f->pose.turn[i], axis, 3);
         rate += c[(UNKNOWN + 1) * (3 + i)] / 3.0;
         flat += i < 2 ? 0.5 * c[(UNKNOWN + 1) * (3 + i)] : 0.0;
     }
