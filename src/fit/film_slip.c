@@ -1,9 +1,10 @@
 /* film_slip.c - the measured slip of one film beside its places.
  *
- * Each slip was made of a window of frames, so those of neighbouring frames have errors in common: frames are taken that
- * are farther apart than half a window, whose errors are correlated by -0.12 in case rotations err independently.  Places and slip are
- * independent witnesses.  If the places fit much worse as soon as the slip is fitted too, then one of them is wrong, or the
- * law is, and the places alone are believed.  If the slip fits worse than its errors allow, it counts less.
+ * Each slip was made of a window of frames, so those of neighbouring frames have errors in common: frames are taken
+ * that are farther apart than half a window, whose errors are correlated by -0.12 if rotations err independently.
+ * Places and slip are independent witnesses.  If the places fit much worse as soon as the slip is fitted too, then one
+ * of them is wrong, or the law is, and the places alone are believed.  If the slip fits worse than its errors allow, it
+ * counts less.
  */
 #include "fit/film_slip.h"
 

@@ -1,15 +1,12 @@
 /* track.c - parameters from one good film: the places of the bead, frame by frame, against the model's
  * path.
  *
- * What a table says of a film in three numbers, the track says in hundreds of places.  Beside the parameters a
- * few numbers are unknown of which nobody wants to know: the centre of the picture, the angle of the magnet and
- * the place on the orbit at the beginning, the exact frequency of the drive, the camera's tilt where there is
- * one, and, if they are known only roughly, the exposure and the scale.  They are sought together.
+ * What a table says of a film in three numbers, the track says in hundreds of places.
  *
  *      track --> measure --> three numbers --> a fit of a table --> start
  *        |                                                            |
  *        '--> first 15 %, 40 %, all of the frames: <------------------'   phases that drift apart are caught early
- *             least squares of places
+ *             least squares of places (film.c), then of the slip too (film_slip.c)
  *
  * The noise of the places is taken from what is left over; where that is not white (neighbouring frames err
  * alike), all errors grow accordingly.
@@ -20,7 +17,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/constants.h"
 #include "base/error.h"
 #include "base/order.h"
 #include "base/watch.h"

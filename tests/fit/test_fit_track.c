@@ -52,9 +52,9 @@ static void test_a_film_that_begins_too_early(void **state)
     fst_track_free(&track);
 }
 
-/* The slip that the bead's marks showed agrees with the model's, in a picture as it is and mirrored, and says more of the
- * friction than places that scatter by 0.3 mm do; slip of another motion is not believed, and errors that are too small are widened; the numbers survive being written and
- * read. */
+/* The slip that the bead's marks showed agrees with the model's, in a picture as it is and mirrored, and says more of
+ * the friction than places that scatter by 0.3 mm do; slip of another motion is not believed, and errors that are too
+ * small are widened; the numbers survive being written and read. */
 static void test_slip(void **state)
 {
     enum { WITHOUT, AS_IT_IS, MIRRORED, BACKWARDS, TOO_SURE, READ, CASES };

@@ -41,8 +41,8 @@ static void test_long_exposure(void **state)
     fst_track_free(&track);
 }
 
-/* Slip whose errors are alike in neighbouring frames, a bead of another size than was said, and a wrong scale: of 40 films about
- * 68 % have gamma within one error. */
+/* Slip whose errors are alike in neighbouring frames, a bead of another size than was said, and a wrong scale: of 40
+ * films about 68 % have gamma within one error. */
 static void test_errors_with_slip(void **state)
 {
     enum { FILMS = 40 };
