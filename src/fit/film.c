@@ -11,7 +11,7 @@
 enum { FRAMES_UNASKED = 128 }; /* frames between two questions: some milliseconds */
 
 /* Lengths of a step of the unknowns. */
-static const double unit_of[FIT_NUISANCES] = {1e-3, 1e-3, 1e-3, 1.0, 0.1, 1e-3, 1e-2, 1e-2, 1e-2, 0.1};
+static const double unit_of[FIT_NUISANCES] = {1e-3, 1e-3, 1e-3, 1.0, 0.1, 1e-3, 1e-2, 1e-2, 1e-2, 1.0};
 
 /* Relative, of the bead's radius, with which the slip was measured: callipers have 0.5 % of 5 mm, and a chain of rotations
  * may err as much, all in one way. */
