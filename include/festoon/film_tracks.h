@@ -64,9 +64,10 @@ typedef struct fst_film_track_report {
     double noise, contrast;            /* of a pixel, gray levels; of the bead, gray levels */
     double
         shake; /* pixels that the camera moved, rms; the track is on the plate, without it; 0: it stood still */
-    double jitter;      /* pixels by which places scatter about a smooth path; NAN: too few frames */
-    double scale;       /* mm a pixel in the middle of the path; NAN: no scale */
-    double scale_error; /* its relative error, a standard deviation */
+    double roll;   /* degrees (rms) by which it turned about its own axis, which the track has; 0: not seen */
+    double jitter; /* pixels by which places scatter about a smooth path; NAN: too few frames */
+    double scale;  /* mm a pixel in the middle of the path; NAN: no scale */
+    double scale_error;                     /* its relative error, a standard deviation */
     fst_film_scale scales[FST_FILM_SCALES]; /* all that were given, the first being the one taken */
     int scale_count;
     double plate[2];  /* the longer and the shorter diameter of the plate's edge, pixels; NAN: not asked */

@@ -136,10 +136,12 @@ typedef struct fst_fit {
     double
         widened; /* 1; or, where chi2 is no parabola, by how much the error of the parameter of which that is most
                            true exceeds the curvature's: kappa_gamma2_error was multiplied by it */
-    int slip_frames; /* of a track: frames whose slip was measured (fst_turning) */
+    int slip_frames; /* of a track: frames whose slip was measured (fst_turning) ... */
+    int slip_fitted; /* ... and in how many of them it was fitted, far enough apart to err independently; 0: in none */
     double
         slip_misfit; /* how far the model's slip is from it: the root of the mean square of a component's difference
-                           over its error; NAN: none was measured.  It is not fitted, but judges the friction law */
+                           over its error; NAN: none was measured */
+    double slip_chi2; /* of the two components of each fitted one; NAN: none.  Laws of friction differ by it */
     /* Of a track, Hz: how the magnet turned, which is sought too, and from where (NAN: from what the track told).  0: of a
      * table. */
     double drive, drive_error, drive_given;
@@ -165,7 +167,8 @@ FST_API fst_status fst_fit_points(const fst_params *params, const fst_points *po
 FST_API void fst_fit_free(fst_fit *fit);
 
 /* The same from one track, its places against the model's path: centre, phases, the exact drive and, if its
- * error is given, the exposure are unknowns too.  `points` counts coordinates, and chi^2 says nothing, for the
+ * error is given, the exposure are unknowns too.  Where the track has the slip (fst_turning), it is fitted with them, with the
+ * bead's radius as one more unknown.  `points` counts coordinates, and chi^2 says nothing, for the
  * noise is measured by what is left over.  Rows of the track may become rejected, as by fst_measure_track(). */
 FST_API fst_status fst_fit_track(const fst_params *params, fst_track *track, const fst_fit_options *options,
                                  fst_fit *fit, fst_error *error);

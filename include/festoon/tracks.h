@@ -21,6 +21,10 @@ typedef enum {
 
 enum { FST_LENGTH_UNIT_SIZE = 8, FST_TRACKED_BEADS = 4 };
 
+/* W and v of a frame come of it and its neighbours, so many frames in all, in which rotations and places are polynomials of
+ * this order in time: what changes within half of them is lost. */
+enum { FST_TURNING_WINDOW = 11, FST_TURNING_ORDER = 7 };
+
 /* How a bead with marks turns in a frame, in the axes of the track, z being up from the plate.  NAN: not known.  An error is
  * one standard deviation. */
 typedef struct fst_turning {

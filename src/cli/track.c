@@ -103,6 +103,11 @@ static void print_report(const fst_film_track_report *r, FILE *out)
     if (r->shake > 0.0)
         (void)fprintf(out, "camera      moved by %.2g pixels (rms), which the track is corrected for\n",
                       r->shake);
+    if (r->roll > 0.0)
+        (void)fprintf(out,
+                      "camera      turned about its own axis by %.2g degrees (rms): the track is not corrected "
+                      "for this\n",
+                      r->roll);
     print_names(r, out);
     if (!isnan(r->jitter))
         (void)fprintf(out, "scatter     %.2f pixels about a smooth path\n", r->jitter);

@@ -201,7 +201,7 @@ static fst_status report_fit(fit_problem *p, const fit_estimate *e, int too_many
     fit->dof = fit->points - k;
     fit->error_scale = fit_error_scale(e->chi2, dof);
     fit->widened = 1.0;
-    fit->slip_misfit = NAN;
+    fit->slip_misfit = fit->slip_chi2 = NAN;
     fit->aicc = fit_aicc(e->chi2, fit->points, k);
     if (too_many &&
         fit_remark(fit, error,

@@ -112,7 +112,9 @@ char *fst_fit_json(const fst_params *params, const fst_fit *fit)
     }
     if (fit->slip_frames > 0) {
         fst_json_integer(&json, "slip_frames", fit->slip_frames);
+        fst_json_integer(&json, "slip_fitted", fit->slip_fitted);
         fst_json_real(&json, "slip_misfit", fit->slip_misfit);
+        fst_json_real(&json, "slip_chi2", fit->slip_chi2);
     }
     fst_json_text(&json, "weakest", fit->weakest);
     put_outliers(&json, fit);

@@ -15,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "base/number.h"
 #include "base/order.h"
@@ -305,6 +306,7 @@ static fst_status begin(tracking *t, fst_error *error)
     r->shadow = t->look.shade / (t->look.shade + (1.0 - t->look.shade) * t->look.contrast);
     r->noise = t->still.noise;
     r->shake = t->still.shake;
+    r->roll = FST_DEGREES * t->still.roll;
     r->contrast = t->look.levels;
     return status;
 }

@@ -16,6 +16,7 @@
 #include "follow/shadow.h"
 #include "follow/split.h"
 
+#define MOST_ROLL 0.02     /* rad: where a camera rolls by more, places and n are worth nothing */
 #define LEAST_CONTRAST 8.0 /* gray levels: less is no bead that can be followed */
 #define OF_NOISE 6.0       /* a bead's difference, in deviations of a pixel */
 #define OF_CONTRAST 0.15   /* where a spot ends, in parts of the contrast */
@@ -261,9 +262,14 @@ static fst_status check_count(const char *path, const learnt *lesson, double wid
                           numbers[lesson->beads], count - enough, count);
 }
 
-/* A camera that shook so much that the samples cannot be shifted back. */
+/* A camera that rolled, or shook so much that the samples cannot be shifted back. */
 static fst_status check_shake(const char *path, const follow_still *s, fst_error *error)
 {
+    if (s->roll > MOST_ROLL)
+        return fst_fail(
+            error, FST_BAD_INPUT, path,
+            "the camera turns about its own axis by %.2g degrees (rms), which is too much: fix the camera",
+            FST_DEGREES * s->roll);
     const int far = MOST_MARGIN * s->margin > (s->width < s->height ? s->width : s->height);
     if (!(s->shake > 0.0) || (s->unsteady < UNSTEADY && !far))
         return FST_OK;

@@ -15,6 +15,7 @@ enum { LEAST_SIDE = 24, ROUNDS = 8, MOST_PIXELS = 60000 };
 
 #define CLOSE 0.005     /* pixels: the search ends */
 #define LEAST_SURE 0.08 /* pixels: a shift that is known worse is not known */
+#define MOST_ROLL 0.2   /* rad: a search that comes so far is lost */
 
 int follow_shake_begin(follow_shake *shake, const float *level, int width, int height, int margin)
 {
@@ -175,6 +176,49 @@ double follow_shake_find(follow_shake *shake, const unsigned char *frame, const 
         return NAN;
     memcpy(shift, found, sizeof found);
     return likeness(shake, found);
+}
+
+/* One step of the search for a roll on one level; returns the standard deviation of the angle. */
+static double improve_roll(const follow_shake *shake, int k, const double shift[2], double *size, double *roll)
+{
+    const int width = shake->width[k], height = shake->height[k], stride = 1 + width * height / MOST_PIXELS,
+              rim = 1 + (shake->margin >> k);
+    const double middle[2] = {0.5 * (width - 1), 0.5 * (height - 1)};
+    double along = 0.0, square = 0.0, total = 0.0;
+    int count = 0;
+    for (int row = rim; row + rim < height; ++row)
+        for (int column = rim + row % stride; column + rim < width; column += stride) {
+            const double x = column - middle[0], y = row - middle[1];
+            const double at[2] = {column + ldexp(shift[0], -k) - *roll * y,
+                                  row + ldexp(shift[1], -k) + *roll * x};
+            if (!(at[0] >= 0.0 && at[1] >= 0.0 && at[0] < width - 1.001 && at[1] < height - 1.001))
+                continue;
+            const float *here = shake->picture[k] + row * width + column;
+            const double slope = 0.5 *
+                                 ((double)(here[width] - here[-width]) * x - (double)(here[1] - here[-1]) * y),
+                         off = (double)(between(shake->frame[k], width, (float)at[0], (float)at[1]) - here[0]),
+                         weight = 1.0 / (1.0 + off * off / (*size * *size));
+            along += weight * slope * off;
+            square += weight * slope * slope;
+            total += fmin(fabs(off), 3.0 * *size);
+            ++count;
+        }
+    if (!(square > 0.0))
+        return INFINITY;
+    *roll -= along / square;
+    *size = fmax(1.0, 2.0 * total / count);
+    return *size / sqrt(square);
+}
+
+double follow_shake_roll(const follow_shake *shake, const double shift[2])
+{
+    double roll = 0.0, sure = INFINITY;
+    for (int k = shake->count - 1; k >= 0; --k) {
+        double size = 16.0;
+        for (int round = 0; round < ROUNDS && fabs(roll) < MOST_ROLL; ++round)
+            sure = improve_roll(shake, k, shift, &size, &roll);
+    }
+    return fabs(roll) < MOST_ROLL && sure * 0.5 * shake->width[0] < LEAST_SURE ? roll : NAN;
 }
 
 void follow_shake_undo(const follow_shake *shake, const float *gains, const double shift[2],

@@ -21,6 +21,10 @@ void follow_shake_end(follow_shake *shake);
  * right, about 0 where it is wrong, or the picture is blurred; NAN, with the guess left, where it is too plain. */
 double follow_shake_find(follow_shake *shake, const unsigned char *frame, const float *gains, double shift[2]);
 
+/* By which angle (rad, clockwise as the picture is seen) the frame of the last search is turned about its middle, beside that
+ * shift; NAN: the picture is too plain to tell, or the angle too large. */
+double follow_shake_roll(const follow_shake *shake, const double shift[2]);
+
 /* Shift the frame of the last search back, by straight lines between pixels.  What comes from outside of it, and
  * the margin, are taken from the picture. */
 void follow_shake_undo(const follow_shake *shake, const float *gains, const double shift[2],

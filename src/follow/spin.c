@@ -1,6 +1,6 @@
 /* spin.c - n, W and slip in each frame, from the rotations around it.
  *
- * Over seven frames W and the velocity are polynomials of fourth order in time, fitted to the frame and its neighbours.  A
+ * Over eleven frames W and the velocity are polynomials of sixth order in time, fitted to the frame and its neighbours.  A
  * rotation counts by what its frame knows of it: a frame that shows but one dot knows nothing of the turning about it.
  * By how much all rotations are off such smooth paths, beyond what was expected, tells by how much their errors have
  * to be widened.
@@ -17,10 +17,10 @@
 #include "base/turn.h"
 
 enum {
-    SIDE = 3,
-    WIDER = 4,
+    SIDE = (FST_TURNING_WINDOW - 1) / 2,
+    WIDER = SIDE + 1,
     MOST = 2 * WIDER + 1,
-    ORDERS = 5,
+    ORDERS = FST_TURNING_ORDER,
     UNKNOWN = 3 + 3 * ORDERS,
     SUBSTEPS = 4,
     REPEATS = 4,
@@ -30,10 +30,10 @@ enum {
 /* A rotation that is less sure than this (rad) has no number, and W has none that turns the bead by as much less surely in the
  * time of a frame. */
 #define MOST_ERROR 0.15
-/* Chi^2 of three degrees of freedom exceeds this once in a thousand: a rotation in such a window is wrong. */
-#define MOST_CHI2 16.3
-/* The mean of chi^2 of nine degrees of freedom, which nine frames leave, over its median. */
-#define MEDIAN_CHI 1.08
+/* Chi^2 of nine degrees of freedom exceeds this once in a thousand: a rotation in such a window is wrong. */
+#define MOST_CHI2 27.9
+/* The mean of chi^2 of 15 degrees of freedom, which the wider window leaves, over its median. */
+#define MEDIAN_CHI 1.046
 
 /* A frame of a window, and what of its rotation the fit expects. */
 typedef struct near_frame {
@@ -149,18 +149,48 @@ static int invert(const double normal[UNKNOWN * UNKNOWN], double inverse[UNKNOWN
     return 1;
 }
 
+/* W to begin with: the polynomial that has, from each frame to the next, the mean that takes one rotation to the other.
+ * Returns 0 where there is none. */
+static int begin(window *w)
+{
+    double normal[ORDERS * ORDERS] = {0.0}, columns[3][ORDERS] = {{0.0}};
+    for (int at = 1; at < w->count; ++at) {
+        const near_frame *a = &w->frames[at - 1], *b = &w->frames[at];
+        const double step = b->time - a->time;
+        double by[3], terms[ORDERS], powers[2] = {1.0, 1.0};
+        if (step > 1.5) /* it may have turned by more than half a turn */
+            continue;
+        fst_turn_between((const double(*)[3])a->turn->pose.turn, (const double(*)[3])b->turn->pose.turn, by);
+        for (int i = 0; i < ORDERS; ++i) {
+            powers[0] *= a->time / (i + 1);
+            powers[1] *= b->time / (i + 1);
+            terms[i] = powers[1] - powers[0];
+        }
+        for (int i = 0; i < ORDERS; ++i) {
+            for (int k = 0; k < 3; ++k)
+                columns[k][i] += terms[i] * by[k];
+            for (int j = 0; j < ORDERS; ++j)
+                normal[ORDERS * i + j] += terms[i] * terms[j] + (i == j ? 1e-9 : 0.0);
+        }
+    }
+    for (int k = 0; k < 3; ++k) {
+        double copy[ORDERS * ORDERS];
+        memcpy(copy, normal, sizeof copy);
+        if (!follow_solve(copy, columns[k], ORDERS))
+            return 0;
+        for (int i = 0; i < ORDERS; ++i)
+            w->rates[i][k] = columns[k][i];
+    }
+    return 1;
+}
+
 /* Fit a window whose middle is its frame number `middle`.  Returns 0 where it has no solution. */
 static int fit(window *w, int middle)
 {
     double normal[UNKNOWN * UNKNOWN], right[UNKNOWN];
-    const near_frame *one = &w->frames[middle > 0 ? middle - 1 : middle],
-                     *other = &w->frames[middle > 0 ? middle : middle + 1];
-    memset(w->rates, 0, sizeof w->rates);
     memcpy(w->turn, w->frames[middle].turn->pose.turn, sizeof w->turn);
-    fst_turn_between((const double(*)[3])one->turn->pose.turn, (const double(*)[3])other->turn->pose.turn,
-                     w->rates[0]);
-    for (int i = 0; i < 3; ++i)
-        w->rates[0][i] /= other->time - one->time;
+    if (!begin(w))
+        return 0;
     for (int repeat = 0; repeat < REPEATS; ++repeat) {
         go(w, middle, -1);
         go(w, middle, 1);
@@ -287,7 +317,7 @@ static void tell(const follow_turning *t, const follow_turn *f, const window *w,
     double v[2], factor, off[2] = {0.0, 0.0}, rate = 0.0, flat = 0.0;
     const double *c = w->covariance;
     for (int i = 0; i < 3; ++i) {
-        told->n[i] = fst_dot(w->turn[i], axis, 3);
+        told->n[i] = fst_dot(f->pose.turn[i], axis, 3);
         rate += c[(UNKNOWN + 1) * (3 + i)] / 3.0;
         flat += i < 2 ? 0.5 * c[(UNKNOWN + 1) * (3 + i)] : 0.0;
     }

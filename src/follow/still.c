@@ -13,6 +13,7 @@
 #define DARK 16.0f       /* gray levels: of less a ratio tells little */
 #define ALIKE 0.25       /* of the picture's gradient that a frame in the right place has */
 #define LEAST_SHAKE 0.15 /* pixels, rms: less is no shake */
+#define LEAST_ROLL 0.3   /* pixels, rms, at the picture's sides: less is no roll */
 #define STEADY 0.03      /* pixels: shifting back once more changes nothing */
 #define NEAR 0.08f       /* part of the level within which a pixel counts as background */
 
@@ -233,26 +234,29 @@ void follow_still_steady(const follow_still *still, follow_shake *shake, unsigne
 }
 
 /* What comparing the samples with their picture says: the root mean square of their shifts, the greatest, and how many
- * tell one, and are like the picture there. */
+ * tell one, and are like the picture there; the same of how far they are turned. */
 typedef struct comparison {
-    double moved, most;
+    double moved, most, roll; /* pixels; rad */
     int found, alike;
 } comparison;
 
 /* Compare all samples with the picture, and shift them back where they moved by more than `least`. */
 static comparison compare_samples(follow_still *s, follow_shake *shake, double least)
 {
-    double shifts[FOLLOW_SAMPLES][2] = {{0.0}}, squares = 0.0;
+    double shifts[FOLLOW_SAMPLES][2] = {{0.0}}, squares = 0.0, turns = 0.0;
     comparison c = {.moved = NAN};
     for (int k = 0; k < s->count; ++k) {
         unsigned char *sample = s->samples + (size_t)k * (size_t)s->width * (size_t)s->height;
         const double alike =
             follow_shake_find(shake, sample, s->gains + (size_t)k * (size_t)s->height, shifts[k]);
+        const double roll = follow_shake_roll(shake, shifts[k]);
+        turns += isnan(roll) ? 0.0 : roll * roll / s->count;
         c.found += !isnan(alike);
         c.alike += alike > ALIKE;
         squares += shifts[k][0] * shifts[k][0] + shifts[k][1] * shifts[k][1];
         c.most = fmax(c.most, fmax(fabs(shifts[k][0]), fabs(shifts[k][1])));
     }
+    c.roll = sqrt(turns);
     if (c.found > s->count * 3 / 4)
         c.moved = sqrt(0.5 * squares / c.found);
     if (!(c.moved > least))
@@ -285,6 +289,7 @@ static fst_status steady_samples(follow_still *s, const fst_progress *progress, 
         s->unsteady = c.alike > s->count * 3 / 4 || round == 0 ? c.moved : INFINITY;
         if (round == 0 && c.moved > least)
             s->shake = c.moved;
+        s->roll = 0.5 * s->width * c.roll > LEAST_ROLL ? c.roll : 0.0;
         if (!(c.moved > least))
             break;
         status = make_twice(s, progress, error);

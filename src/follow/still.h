@@ -14,10 +14,12 @@ enum { FOLLOW_SAMPLES = 41, FOLLOW_LEAST_FRAMES = 5 };
 
 typedef struct follow_still {
     int width, height;
-    float *level;    /* gray levels */
-    double noise;    /* deviation of a pixel where nothing moves, in gray levels */
-    double shake;    /* pixels that the camera moved (rms) while it filmed the samples, which then were shifted
+    float *level; /* gray levels */
+    double noise; /* deviation of a pixel where nothing moves, in gray levels */
+    double shake; /* pixels that the camera moved (rms) while it filmed the samples, which then were shifted
                                back; 0: it stood still */
+    double
+        roll; /* rad (rms) by which the camera turned about its axis, which is not turned back; 0: not seen */
     double unsteady; /* what shifting back left of it: more than a part of a pixel, or INFINITY, means that it
                         failed; NAN: the picture is too plain to tell */
     int margin; /* pixels all around that the shake takes out of some frames: nothing is looked for there */

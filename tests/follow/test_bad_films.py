@@ -1,4 +1,5 @@
 """`festoon track` on films in bad light and by a camera that shakes: a shake is followed, and the track does not have it;
+a roll is told;
 what cannot be followed is refused with the reason, camera or light.
 
 Without ffmpeg the test is skipped.
@@ -6,6 +7,7 @@ Without ffmpeg the test is skipped.
 tests: follow/still.c follow/learn.c follow/shake.c follow/overlay.c cli/track.c
 labels: slow"""
 
+import math
 import re
 import sys
 import unittest
@@ -43,6 +45,20 @@ class BadFilms(films.OnFilms):
             self.assertLess(found["rms"], 0.15, size)
             told = float(re.search(r"camera      moved by ([\d.]+) pixels", done.stdout)[1])
             self.assertAlmostEqual(told / size, 1.0, delta=0.25)
+
+    def rolled(self, degrees):
+        """The film by a camera that turns about its own axis by so many degrees (rms)."""
+        film = self.folder / "rolled.mp4"
+        ffmpeg("-i", self.good, "-vf", f"rotate='{degrees * math.sqrt(2) / 57.2958}*sin(n*0.37)',crop=iw-80:ih-80", "-crf", "16",
+               film)
+        return film
+
+    def test_a_camera_that_rolls(self):
+        """It is told, with the angle; much of it is refused."""
+        _, done = self.track(self.rolled(0.3))
+        told = float(re.search(r"turned about its own axis by ([\d.]+) degrees", done.stdout)[1])
+        self.assertAlmostEqual(told / 0.3, 1.0, delta=0.25)
+        self.refused(self.rolled(2), "the camera turns about its own axis by|degrees|fix the camera")
 
     def test_a_steady_camera(self):
         """Nothing is said of a shake, and nothing of the light."""

@@ -1,4 +1,4 @@
-/* The shift of a frame against a picture with a texture, however the light has changed and wherever the bead is; and a
+/* The shift and the roll of a frame against a picture with a texture, however the light has changed and wherever the bead is; and a
  * plain picture, which tells nothing.
  * tests: follow/shake.c follow/still.c */
 #include "numeric.h"
@@ -45,13 +45,18 @@ static double level_at(const texture *t, double x, double y)
 static float picture[WIDTH * HEIGHT], gains[HEIGHT];
 static unsigned char frame[WIDTH * HEIGHT];
 
-/* A frame that is shifted, dimmed, noisy, and has a bead on it. */
-static void film(const texture *t, const double shift[2], double dim, double noise, uint64_t *chance)
+/* A frame that is shifted, turned clockwise about its middle, dimmed, noisy, and has a bead on it. */
+static void film(const texture *t, const double shift[2], double roll, double dim, double noise,
+                 uint64_t *chance)
 {
     for (int row = 0; row < HEIGHT; ++row)
         for (int column = 0; column < WIDTH; ++column) {
             const int bead = hypot(column - 200.0, row - 90.0) < 15.0;
-            const double level = bead ? 40.0 : level_at(t, column - shift[0], row - shift[1]);
+            const double middle[2] = {0.5 * (WIDTH - 1), 0.5 * (HEIGHT - 1)}, x = column - shift[0] - middle[0],
+                         y = row - shift[1] - middle[1];
+            const double level = bead ? 40.0
+                                      : level_at(t, middle[0] + cos(roll) * x + sin(roll) * y,
+                                                 middle[1] - sin(roll) * x + cos(roll) * y);
             frame[row * WIDTH + column] =
                 (unsigned char)fmax(0.0, fmin(255.0, dim * level + noise * (even(chance) - 0.5) + 0.5));
         }
@@ -75,7 +80,7 @@ static void shifts(void **state)
             picture[i] = (float)level_at(&t, i % WIDTH, i / WIDTH);
         for (int row = 0; row < HEIGHT; ++row)
             gains[row] = (float)dim;
-        film(&t, shift, dim, 6.0, &chance);
+        film(&t, shift, 0.0, dim, 6.0, &chance);
         assert_true(follow_shake_begin(&shake, picture, WIDTH, HEIGHT, 16));
         assert_true(follow_shake_find(&shake, frame, gains, found) > 0.6);
         CHECK_CLOSE(found[0], shift[0], trial % 2 ? 0.1 : 0.05);
@@ -97,6 +102,32 @@ static void shifts(void **state)
     }
 }
 
+/* A camera that turns about its axis, by up to 3 degrees, and shakes: the angle is found, as clockwise, to 0.01 degrees or a
+ * hundredth of it. */
+static void rolls(void **state)
+{
+    (void)state;
+    uint64_t chance = 11;
+    for (int trial = 0; trial < 12; ++trial) {
+        const texture t = make_texture(&chance, 4.0);
+        const double roll = trial == 0 ? 0.0 : 0.05 * (2.0 * even(&chance) - 1.0) * (trial % 2 ? 1.0 : 0.1),
+                     shift[2] = {6.0 * even(&chance) - 3.0, 6.0 * even(&chance) - 3.0};
+        double found[2] = {0.0, 0.0};
+        follow_shake shake;
+        for (int i = 0; i < WIDTH * HEIGHT; ++i)
+            picture[i] = (float)level_at(&t, i % WIDTH, i / WIDTH);
+        for (int row = 0; row < HEIGHT; ++row)
+            gains[row] = 1.0f;
+        film(&t, shift, roll, 1.0, 6.0, &chance);
+        assert_true(follow_shake_begin(&shake, picture, WIDTH, HEIGHT, 16));
+        (void)follow_shake_find(&shake, frame, gains, found);
+        const double angle = follow_shake_roll(&shake, found);
+        print_message("roll %.5f found as %.5f\n", roll, angle);
+        CHECK_CLOSE(angle, roll, 2e-4 + 0.01 * fabs(roll));
+        follow_shake_end(&shake);
+    }
+}
+
 static void plain_pictures(void **state)
 {
     (void)state;
@@ -109,10 +140,11 @@ static void plain_pictures(void **state)
         picture[i] = 150.0f;
     for (int row = 0; row < HEIGHT; ++row)
         gains[row] = 1.0f;
-    film(&none, shift, 1.0, 6.0, &chance);
+    film(&none, shift, 0.0, 1.0, 6.0, &chance);
     assert_true(follow_shake_begin(&shake, picture, WIDTH, HEIGHT, 16));
     assert_true(isnan(follow_shake_find(&shake, frame, gains, found)));
     assert_true(found[0] == 0.5 && found[1] == -0.5);
+    assert_true(isnan(follow_shake_roll(&shake, shift)));
     follow_shake_end(&shake);
 }
 
@@ -120,6 +152,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shifts),
+        cmocka_unit_test(rolls),
         cmocka_unit_test(plain_pictures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,6 +3,7 @@
 #define FESTOON_TESTS_FIT_FILMS_H
 
 #include <stdio.h>
+#include <string.h>
 
 #include "fit_tables.h"
 
@@ -12,7 +13,8 @@ static const char *const fit_keys[] = {"model.kappa", "friction.gamma"};
 
 typedef struct film {
     double t[SAMPLES * PERIODS + 1], x[SAMPLES * PERIODS + 1], y[SAMPLES * PERIODS + 1]; /* s, mm */
-    double slip[SAMPLES * PERIODS + 1][2]; /* V = v - R W x e, mm/s */
+    double slip[SAMPLES * PERIODS + 1][2],
+        slid[SAMPLES * PERIODS + 1][2]; /* V = v - R W x e, mm/s; its integral, mm */
     int count;
     double time_unit;
 } film;
@@ -24,8 +26,9 @@ static inline fst_status keep(void *user, const fst_sample *sample, fst_error *e
     if (f->count <= SAMPLES * PERIODS) {
         f->t[f->count] = sample->t * f->time_unit;
         const double unit = 23.0 / f->time_unit, eps = 2.5 / 23.0;
-        f->slip[f->count][0] = unit * (sample->v_lab[0] - eps * sample->w_lab[1]);
-        f->slip[f->count][1] = unit * (sample->v_lab[1] + eps * sample->w_lab[0]);
+        const double slip[2] = {unit * (sample->v_lab[0] - eps * sample->w_lab[1]),
+                                unit * (sample->v_lab[1] + eps * sample->w_lab[0])};
+        memcpy(f->slip[f->count], slip, sizeof slip);
         f->x[f->count] = 23.0 * sample->x;
         f->y[f->count++] = 23.0 * sample->y;
     }
@@ -41,9 +44,9 @@ static inline fst_params truth(void)
     return params;
 }
 
-static inline void make_film(film *f)
+static inline void make_film_of(const fst_params *setup, film *f)
 {
-    fst_params params = truth();
+    fst_params params = *setup;
     fst_run_options options = fst_default_run_options();
     fst_run_result result;
     params.run_periods = 80 + PERIODS;
@@ -54,6 +57,17 @@ static inline void make_film(film *f)
     options.sample_from = 80.0;
     assert_int_equal(fst_run(&params, &options, &result, NULL), FST_OK);
     assert_true(f->count >= SAMPLES * PERIODS);
+    for (int i = 1; i + 2 < f->count; ++i) /* by the cubic through four samples */
+        for (int k = 0; k < 2; ++k)
+            f->slid[i + 1][k] = f->slid[i][k] + (f->t[i + 1] - f->t[i]) / 24.0 *
+                                                    (13.0 * (f->slip[i][k] + f->slip[i + 1][k]) -
+                                                     f->slip[i - 1][k] - f->slip[i + 2][k]);
+}
+
+static inline void make_film(film *f)
+{
+    const fst_params params = truth();
+    make_film_of(&params, f);
 }
 
 /* What a camera makes of it: frames that last `blur` samples, tilted, mirrored where the magnet is to turn
@@ -74,6 +88,44 @@ static inline void make_track(const film *f, int blur, double tilt_deg, int mirr
         y += 30.0 + noise * fit_normal(&seed);
         assert_int_equal(fst_track_append(track, i / EACH, f->t[i], x, y, NULL), FST_OK);
     }
+}
+
+/* The slope in the middle of eleven values of which a polynomial of seventh order goes by the least squares (Savitzky and
+ * Golay): the weights of the five on each side. */
+static const double slope_weights[5] = {0.4176881942, 0.2369277781, -0.2076766371, 0.0692498678, -0.009102662};
+
+/* The slip as a film tells it that shows lengths `scale` times as large as they are, with `noise` (mm) in the rolling of each
+ * frame, and a bead that is larger by the share `larger` than it was taken for.  Returns in how many frames it is; there are
+ * gaps. */
+static inline int add_slip(const film *f, int mirrored, double scale, double larger, double noise,
+                           uint64_t *seed, fst_track *track)
+{
+    static double off[SAMPLES * PERIODS / EACH + 1][2];
+    const double step = f->t[EACH] - f->t[0];
+    const int frames = (int)track->rows;
+    int told = 0;
+    assert_int_equal(fst_track_add_turning(track, NULL), FST_OK);
+    for (int i = 0; i < frames; ++i)
+        for (int k = 0; k < 2; ++k)
+            off[i][k] = noise * fit_normal(seed);
+    for (int i = 6; i + 6 < frames; i += i % 50 ? 1 : 5) {
+        double v[2] = {0.0, 0.0}, slip[2] = {0.0, 0.0}, gain = 0.0;
+        for (int k = 1; k <= 5; ++k) {
+            const int a = EACH * (i - k), b = EACH * (i + k);
+            const double w = slope_weights[k - 1] / step;
+            v[0] += w * (f->x[b] - f->x[a]);
+            v[1] += w * (f->y[b] - f->y[a]);
+            for (int q = 0; q < 2; ++q)
+                slip[q] += w * (f->slid[b][q] - f->slid[a][q] + off[i + k][q] - off[i - k][q]);
+            gain += 2.0 * w * w;
+        }
+        for (int q = 0; q < 2; ++q) /* from the velocity and a rolling that is too small */
+            track->turning[i].slip[q] =
+                (mirrored && q == 0 ? -1.0 : 1.0) * (scale * v[q] - (v[q] - slip[q]) / (1.0 + larger));
+        track->turning[i].slip_error = noise * sqrt(gain);
+        ++told;
+    }
+    return told;
 }
 
 static inline void must_fit(fst_track *track, fst_fit_options *options, fst_fit *fit)
