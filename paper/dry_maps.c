@@ -69,7 +69,7 @@ static fst_status show_map(const fst_paper_state *paper, int start, fst_error *e
 {
     char *database = map_path(paper, start, NULL, "db"), *table = map_path(paper, start, NULL, "csv");
     fst_status status = database && table
-                            ? fst_sweep_export(database, FST_EXPORT_CSV, table, NULL, error)
+                            ? fst_sweep_export(database, FST_EXPORT_CSV, table, NULL, NULL, error)
                             : fst_fail(error, FST_NO_MEMORY, "paper", "no memory for a file name");
     for (size_t i = 0; i < sizeof shown / sizeof shown[0] && status == FST_OK; ++i) {
         const fst_sweep_figure as_map = {.kind = FST_FIGURE_MAP, .keys = {shown[i]}};

@@ -360,14 +360,14 @@ typedef enum { FST_EXPORTS(FST_ROW_ENUM) FST_EXPORT_COUNT } fst_export_format;
  * or, if that is NULL, to `stream` (not HDF5).  FST_BAD_INPUT may also mean that some rows are damaged: the
  * others are written all the same, and the sentence names the lost ones. */
 FST_API fst_status fst_sweep_export(const char *path, fst_export_format format, const char *out, FILE *stream,
-                                    fst_error *error);
+                                    const fst_progress *progress, fst_error *error);
 
 /* Write chosen columns as CSV: the varied parameters and `keys` (count = 0: regime, mean_r, std_r,
  * mean_alpha_dot), in the wanted units, each name with its unit behind it: "mean_r [mm]"; and `status`: done,
  * missing where there is no row, or why the run failed.  Fails where rows are damaged. */
 FST_API fst_status fst_sweep_export_keys(const char *path, const char *const *keys, int count,
                                          fst_shown_units units, const char *out, FILE *stream,
-                                         fst_error *error);
+                                         const fst_progress *progress, fst_error *error);
 
 /* Some keys of a sweep by point.  The value of key i at a point is values[i * fst_grid_points(grid) + point],
  * NAN where there is none; `regime` and `symmetry` have their numbers. */

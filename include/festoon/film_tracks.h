@@ -44,6 +44,9 @@ typedef struct fst_film_scale {
     double error; /* a standard deviation, relative */
 } fst_film_scale;
 
+/* Whether two scales of a film contradict each other: by more than twice their joint error. */
+FST_API int fst_film_scales_differ(const fst_film_scale *one, const fst_film_scale *other);
+
 /* A frame from which on beads may have exchanged their names: each could be where another one was found. */
 typedef struct fst_name_doubt {
     int frame;
@@ -67,7 +70,8 @@ typedef struct fst_film_track_report {
     double roll;   /* degrees (rms) by which it turned about its own axis, which the track has; 0: not seen */
     double jitter; /* pixels by which places scatter about a smooth path; NAN: too few frames */
     double scale;  /* mm a pixel in the middle of the path; NAN: no scale */
-    double scale_error;                     /* its relative error, a standard deviation */
+    double scale_error; /* its relative error, a standard deviation; where another scale contradicts
+                                             * it, by how much, 0.99 at most */
     fst_film_scale scales[FST_FILM_SCALES]; /* all that were given, the first being the one taken */
     int scale_count;
     double plate[2];  /* the longer and the shorter diameter of the plate's edge, pixels; NAN: not asked */

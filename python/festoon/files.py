@@ -6,7 +6,7 @@ import subprocess
 from typing import Any, Dict, Iterable, List, Optional, Union
 
 from ._errors import BadInput, FestoonError, Unavailable
-from ._native import call, ffi, lib, path_bytes, strings, take_text
+from ._native import Watch, call, ffi, lib, path_bytes, strings, take_text
 from ._quantities import units_of
 from .beads_trajectories import read as read_beads
 from .branches import read_branch
@@ -44,12 +44,14 @@ def export(
     words, kept = strings(list(keys))
     if kept or units != "scaled":
         shown = units_of(units)
-        call(lib.fst_sweep_export_keys, path_bytes(database), words, len(kept), shown, path_bytes(path), ffi.NULL)
+        with Watch(None) as watch:
+            watch.call(lib.fst_sweep_export_keys, path_bytes(database), words, len(kept), shown, path_bytes(path), ffi.NULL, watch.told)
         return
     ending = os.path.splitext(name)[1]
     if ending not in endings:
         raise BadInput("export", f'"{name}" must end in .csv, .json or .h5')
-    call(lib.fst_sweep_export, path_bytes(database), endings[ending], path_bytes(path), ffi.NULL)
+    with Watch(None) as watch:
+        watch.call(lib.fst_sweep_export, path_bytes(database), endings[ending], path_bytes(path), ffi.NULL, watch.told)
 
 
 def schema() -> List[Dict[str, Any]]:

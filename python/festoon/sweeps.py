@@ -537,7 +537,7 @@ def read_sweep(path: Path) -> Any:
         out = os.path.join(folder, "rows.json")
         try:
             with Watch(None) as watch:
-                watch.call_apart(lib.fst_sweep_export, path_bytes(path), lib.FST_EXPORT_JSON, out.encode(), ffi.NULL)
+                watch.call_apart(lib.fst_sweep_export, path_bytes(path), lib.FST_EXPORT_JSON, out.encode(), ffi.NULL, ffi.NULL)
         except FestoonError as error:
             if not os.path.exists(out) or isinstance(error, OutOfMemory):
                 raise

@@ -116,6 +116,9 @@ fst_status read_quantities(const arguments *given, char words[KEYS_SIZE], const 
 /* Read --title and --size, in m; they stay as they were where they are missing. */
 fst_status read_look(const arguments *given, const char **title, double size[2], fst_error *error);
 
+/* A value with a unit; errors name the option. */
+fst_status read_unit(const char *name, const char *text, fst_unit unit, double *value, fst_error *error);
+
 /* Read a time with its unit: "2ms", "0.002 s", "500us", or "1/500s" as cameras write it. */
 fst_status read_time(const char *option_name, const char *text, double *seconds, fst_error *error);
 
@@ -138,8 +141,11 @@ fst_status read_values(const arguments *given, const value_option *rows, size_t 
 fst_status read_track_scale(const char *text, fst_track_options *how, char unit[FST_LENGTH_UNIT_SIZE],
                             fst_error *error);
 
-/* FST_BAD_INPUT where `written` (NULL: nothing) is the file `read`: it would be lost. */
-fst_status check_other_file(const char *option_name, const char *written, const char *read, fst_error *error);
+/* FST_BAD_INPUT where an output file is one that the command reads, or a scene: it would be lost. */
+fst_status check_outputs(const arguments *given, fst_error *error);
+
+/* The same for one file that is read because another one names it. */
+fst_status check_outputs_spare(const arguments *given, const char *read, fst_error *error);
 
 /* Whether a file's name has this ending, and more before it. */
 int ends_in(const char *path, const char *ending);

@@ -2,7 +2,6 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "cli/command.h"
 
@@ -17,16 +16,6 @@ fst_status fail(fst_error *error, fst_status code, const char *where, const char
     fst_text_tame(error->where);
     error->code = code;
     return code;
-}
-
-fst_status check_other_file(const char *option_name, const char *written, const char *read, fst_error *error)
-{
-    struct stat one, other;
-    if (!written || stat(written, &one) != 0 || stat(read, &other) != 0 || one.st_dev != other.st_dev ||
-        one.st_ino != other.st_ino || S_ISCHR(one.st_mode))
-        return FST_OK;
-    return fail(error, FST_BAD_INPUT, option_name, "%.200s is read, and would be lost: choose another name",
-                written);
 }
 
 void warn_of_material(const fst_params *params)

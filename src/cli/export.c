@@ -1,5 +1,6 @@
 /* export.c - festoon export: the rows of a sweep as CSV, JSON or HDF5. */
 #include "cli/command.h"
+#include "cli/terminal.h"
 
 #define FORMAT(NAME, name, doc) {name, '\0', NULL, doc},
 static const option options[] = {
@@ -12,7 +13,8 @@ static const option options[] = {
 };
 
 /* A table of few columns, in units that people use. */
-static fst_status export_keys(const arguments *given, const char *to, FILE *out, fst_error *error)
+static fst_status export_keys(const arguments *given, const char *to, FILE *out, const fst_progress *progress,
+                              fst_error *error)
 {
     const char *keys[KEY_LIMIT] = {NULL};
     char words[KEYS_SIZE];
@@ -24,7 +26,7 @@ static fst_status export_keys(const arguments *given, const char *to, FILE *out,
     while (count < KEY_LIMIT && keys[count])
         ++count;
     if (status == FST_OK)
-        status = fst_sweep_export_keys(operand(given), keys, count, units, to, out, error);
+        status = fst_sweep_export_keys(operand(given), keys, count, units, to, out, progress, error);
     return status;
 }
 
@@ -62,8 +64,13 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     const int columns = option_value(given, "quantity") || option_value(given, "units");
     if (columns && !option_value(given, "csv"))
         return fail(error, FST_BAD_INPUT, "", "--quantity and --units belong to --csv");
-    fst_status status = columns ? export_keys(given, to, out, error)
-                                : fst_sweep_export(operand(given), (fst_export_format)chosen, to, out, error);
+    progress_line line;
+    const fst_progress progress = {&line, progress_tell};
+    progress_begin(&line);
+    fst_status status =
+        columns ? export_keys(given, to, out, &progress, error)
+                : fst_sweep_export(operand(given), (fst_export_format)chosen, to, out, &progress, error);
+    progress_end(&line);
     if (status == FST_OK && to)
         tell_written(to, "");
     return status == FST_OK ? tell_of_missing(operand(given), error) : status;

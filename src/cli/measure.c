@@ -23,15 +23,6 @@ static const option options[] = {
     {NULL, '\0', NULL, NULL},
 };
 
-/* A value with a unit; errors name the option. */
-static fst_status read_unit(const char *name, const char *text, fst_unit unit, double *value, fst_error *error)
-{
-    const fst_status status = fst_parse_value(text, unit, value, error);
-    if (status != FST_OK)
-        (void)snprintf(error->where, sizeof error->where, "%s", name);
-    return status;
-}
-
 static fst_status read_options(const arguments *given, fst_track_options *how, fst_measure_options *what,
                                char unit[FST_LENGTH_UNIT_SIZE], fst_error *error)
 {
@@ -123,7 +114,7 @@ typedef struct job {
     FILE *out;
 } job;
 
-/* "10.7Hz", or as many as there are tracks: "10.7Hz,12Hz". */
+/* "10.7Hz", or as many as there are tracks: "10.7Hz,12Hz".  In "10,7Hz" the comma is a decimal one. */
 static fst_status read_drives(job *j, fst_error *error)
 {
     const char *text = option_value(j->given, "drive");
@@ -131,6 +122,12 @@ static fst_status read_drives(job *j, fst_error *error)
     while (text && j->drive_count < OPERAND_LIMIT) {
         const size_t length = strcspn(text, ",");
         (void)snprintf(word, sizeof word, "%.*s", (int)(length < 63 ? length : 63), text);
+        if (text[length] && strspn(word, "+-.0123456789") == length)
+            return fail(
+                error, FST_BAD_INPUT, "--drive",
+                "%s stands before a comma without a unit: a decimal point is meant, as in 10.7Hz, or several "
+                "drives, each with its unit, as in 10Hz,7Hz",
+                word);
         const fst_status status =
             read_unit("--drive", word, FST_UNIT_FREQUENCY, &j->drives[j->drive_count++], error);
         if (status != FST_OK)
@@ -138,8 +135,8 @@ static fst_status read_drives(job *j, fst_error *error)
         text = text[length] ? text + length + 1 : NULL;
     }
     if (j->drive_count > 1 && j->drive_count != j->given->operand_count)
-        return fail(error, FST_BAD_INPUT, "--drive", "%d drives for %d tracks: one for all, or one for each",
-                    j->drive_count, j->given->operand_count);
+        return fail(error, FST_BAD_INPUT, "--drive", "%d drives for %d track%s: one for all, or one for each",
+                    j->drive_count, j->given->operand_count, j->given->operand_count > 1 ? "s" : "");
     return FST_OK;
 }
 
@@ -280,9 +277,6 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
                     "a scene is laid over the track in a figure: add --figure FIG.svg");
     if (option_value(given, "set") && !option_value(given, "compare"))
         return fail(error, FST_BAD_INPUT, "--set", "it belongs to the scene of --compare");
-    for (int i = 0; i < given->operand_count; ++i)
-        if (check_other_file("-o", to, given->operands[i], error) != FST_OK)
-            return FST_BAD_INPUT;
     job *j = calloc(1, sizeof *j);
     if (!j)
         return fail(error, FST_NO_MEMORY, "", "out of memory");

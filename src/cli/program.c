@@ -54,6 +54,8 @@ fst_status perform_command(const command *wanted, int count, char **words, FILE 
     fst_field_map *map = NULL;
     fst_bead_params *beads = NULL;
     fst_status status = read_arguments(wanted, count - 1, words + 1, &given, error);
+    if (status == FST_OK)
+        status = check_outputs(&given, error);
     if (status == FST_OK && wanted->program)
         status = become(wanted->program, words, error);
     if (status != FST_OK)

@@ -117,5 +117,6 @@ fst_status read_scene(const arguments *given, const char *path, fst_params *para
         (void)snprintf(error->where, sizeof error->where, "%s", path ? path : "");
         return status;
     }
-    return read_map(given, params, error);
+    const fst_status apart = check_outputs_spare(given, params->magnet_file, error);
+    return apart == FST_OK ? read_map(given, params, error) : apart;
 }

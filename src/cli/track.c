@@ -137,7 +137,7 @@ static void warn_of_scales(const fst_film_track_report *r)
     char text[2][SHOWN_SIZE];
     for (int i = 1; i < r->scale_count; ++i) {
         const fst_film_scale *other = &r->scales[i];
-        if (fabs(log(other->value / first->value)) > 2.0 * hypot(first->error, other->error))
+        if (fst_film_scales_differ(first, other))
             (void)fprintf(
                 stderr,
                 "festoon: warning: the scales contradict each other: %.5g +- %.2g mm a pixel by \"%s\", "
@@ -283,21 +283,6 @@ static fst_status track_several(const arguments *given, fst_film_track_options *
     return FST_OK;
 }
 
-static fst_status check_outputs(const arguments *given, const fst_film_track_options *film, const char *to,
-                                fst_error *error)
-{
-    fst_status status = FST_OK;
-    for (int i = 0; i < given->operand_count && status == FST_OK; ++i) {
-        const char *path = given->operands[i];
-        status = given->operand_count == 1 ? check_other_file("-o", to, path, error) : FST_OK;
-        if (status == FST_OK)
-            status = check_other_file("--overlay", film->overlay, path, error);
-        if (status == FST_OK)
-            status = check_other_file("--figure", film->picture, path, error);
-    }
-    return status;
-}
-
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     fst_film_track_options film;
@@ -308,8 +293,6 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (!to)
         return fail(error, FST_BAD_INPUT, "", "say where the track goes: -o TRACK.csv");
     fst_status status = read_options(given, &film, error);
-    if (status == FST_OK)
-        status = check_outputs(given, &film, to, error);
     if (status == FST_OK && given->operand_count > 1)
         return track_several(given, &film, to, out, error);
     film.csv = to;

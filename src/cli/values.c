@@ -65,6 +65,14 @@ fst_status read_quantities(const arguments *given, char words[KEYS_SIZE], const 
     return FST_OK;
 }
 
+fst_status read_unit(const char *name, const char *text, fst_unit unit, double *value, fst_error *error)
+{
+    const fst_status status = fst_parse_value(text, unit, value, error);
+    if (status != FST_OK)
+        (void)snprintf(error->where, sizeof error->where, "%s", name);
+    return status;
+}
+
 fst_status read_time(const char *name, const char *text, double *seconds, fst_error *error)
 {
     static const struct {
@@ -79,10 +87,10 @@ fst_status read_time(const char *name, const char *text, double *seconds, fst_er
         if (length <= unit || strcmp(begin + length - unit, units[i].unit) != 0)
             continue;
         (void)snprintf(number, sizeof number, "%.*s", (int)(length - unit < 60 ? length - unit : 60), begin);
-        fst_error unheard;
         double value;
-        if (fst_parse_value(number, FST_UNIT_NUMBER, &value, &unheard) != FST_OK ||
-            (reciprocal && value == 0.0))
+        if (!reciprocal && strchr(number, ',')) /* the sentence about decimal commas */
+            return read_unit(name, text, FST_UNIT_TIME, seconds, error);
+        if (fst_parse_value(number, FST_UNIT_NUMBER, &value, error) != FST_OK || (reciprocal && value == 0.0))
             break;
         *seconds = units[i].worth * (reciprocal ? 1.0 / value : value);
         return FST_OK;
@@ -94,12 +102,8 @@ static fst_status read_value(const value_option *row, const char *name, const ch
 {
     if (row->kind == VALUE_TIME)
         return read_time(name, text, row->value, error);
-    if (row->kind != VALUE_WHOLE && row->kind != FST_UNIT_NUMBER) {
-        const fst_status status = fst_parse_value(text, (fst_unit)row->kind, row->value, error);
-        if (status != FST_OK)
-            (void)snprintf(error->where, sizeof error->where, "%s", name);
-        return status;
-    }
+    if (row->kind != VALUE_WHOLE && row->kind != FST_UNIT_NUMBER)
+        return read_unit(name, text, (fst_unit)row->kind, row->value, error);
     double number;
     const fst_status status = read_numbers(name, text, &number, 1, error);
     if (status != FST_OK)

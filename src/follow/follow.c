@@ -30,6 +30,7 @@
 #include <festoon/festoon_tools.h>
 
 enum { OPTIONS_COOKIE = 0x54524b46 };
+static const double WORST_SCALE = 0.99; /* relative error, of a scale that another one contradicts */
 
 #define LEAST_DIAMETER 3.0 /* pixels */
 
@@ -262,6 +263,10 @@ static fst_status make_plane(tracking *t, fst_error *error)
         r->scale = r->scales[0].value;
         r->scale_error = r->scales[0].error;
     }
+    /* Of scales that contradict each other nobody knows which one is right. */
+    for (int i = 1; i < r->scale_count; ++i)
+        if (fst_film_scales_differ(&r->scales[0], &r->scales[i]))
+            r->scale_error = fmax(r->scale_error, fmin(fabs(r->scales[i].value / r->scale - 1.0), WORST_SCALE));
     return status;
 }
 

@@ -14,9 +14,16 @@
 
 #include "base/error.h"
 
-#define POINT_ERROR 1.0 /* pixels: nobody points better */
-#define USUAL_TILT 0.09 /* rad, of a camera that looks straight down: 5 degrees */
-#define EDGE_ERROR 0.05 /* pixels, of the edge's ellipse, besides its scatter */
+#define POINT_ERROR 1.0   /* pixels: nobody points better */
+#define USUAL_TILT 0.09   /* rad, of a camera that looks straight down: 5 degrees */
+#define NEAREST 0.7       /* shortest lenses: a camera's distance asks for no shorter one, */
+#define LONGEST_LENS 40.0 /* diagonals of the picture: and for no longer one */
+#define EDGE_ERROR 0.05   /* pixels, of the edge's ellipse, besides its scatter */
+
+int fst_film_scales_differ(const fst_film_scale *one, const fst_film_scale *other)
+{
+    return fabs(log(other->value / one->value)) > 2.0 * hypot(one->error, other->error);
+}
 
 static int points_of(const follow_scale *scale)
 {
@@ -113,6 +120,13 @@ static fst_status lower_bead(const follow_view *view, double step, follow_plane 
         return fst_fail(error, FST_BAD_INPUT, "fst_film_track_options.distance",
                         "%g mm from the camera to the plate, where the bead's centre is %.2g mm above it",
                         distance, height);
+    const double focal = distance / (step * hypot(view->still->width, view->still->height));
+    if (!(focal > NEAREST * FOLLOW_SHORTEST_LENS && focal < LONGEST_LENS))
+        return fst_fail(
+            error, FST_BAD_INPUT, "fst_film_track_options.distance",
+            "with the camera %g mm from the plate its lens would have a focal length of %.2g diagonals of "
+            "the picture, which is no usual one (%.1g to %g): is the unit right?",
+            distance, focal, NEAREST * FOLLOW_SHORTEST_LENS, LONGEST_LENS);
     double x, y;
     follow_plane_map(plane, view->middle[0], view->middle[1], &x, &y);
     const double factor = 1.0 - height / distance;

@@ -239,6 +239,17 @@ static fst_status fail_open(fst_whole_file *file, const char *path, int reason, 
     return fst_fail(error, FST_IO, path, "cannot write here: %s", strerror(reason));
 }
 
+/* Whether a file is a database of SQLite, such as a sweep's, which nobody means to replace by something else. */
+static int is_database(const char *path)
+{
+    char head[16] = "";
+    FILE *file = fopen(path, "rb");
+    const size_t size = file ? fread(head, 1, sizeof head, file) : 0;
+    if (file)
+        (void)fclose(file);
+    return size == sizeof head && memcmp(head, "SQLite format 3", sizeof head) == 0;
+}
+
 static fst_status open_file(fst_whole_file *file, const char *path, int tidy, fst_error *error)
 {
     *file = (fst_whole_file){NULL, NULL, NULL, NULL};
@@ -248,6 +259,10 @@ static fst_status open_file(fst_whole_file *file, const char *path, int tidy, fs
     if (stat(path, &there) == 0 && !S_ISREG(there.st_mode))
         return fst_fail(error, FST_BAD_INPUT, path, "this is %s: give the name of a file to write",
                         S_ISDIR(there.st_mode) ? "a directory" : "no regular file");
+    if (is_database(path))
+        return fst_fail(
+            error, FST_BAD_INPUT, path,
+            "this is a database, as of a sweep, and would be lost: choose another name, or remove it");
     if (lstat(path, &link) == 0 && S_ISLNK(link.st_mode))
         file->path = realpath(path, NULL);
     if (!file->path)

@@ -18,7 +18,7 @@ typedef struct fst_whole_file {
     struct fst_whole_file_hold *hold; /* the lock, and the reason of the first failed write */
 } fst_whole_file;
 
-/* Make the temporary file.  FST_BAD_INPUT where `path` is a directory, a device or the like; FST_IO where
+/* Make the temporary file.  FST_BAD_INPUT where `path` is a directory, a device, a database or the like; FST_IO where
  * nothing can be written there.  The stream cannot be positioned: it only appends. */
 fst_status fst_whole_file_open(fst_whole_file *file, const char *path, fst_error *error);
 

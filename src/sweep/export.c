@@ -344,9 +344,10 @@ static fst_status export_hdf5(exporter *e, const char *out, fst_error *error)
 /* ------------------------------------------------------------------ */
 
 static fst_status export_rows(exporter *e, fst_export_format format, const char *out, FILE *stream,
-                              fst_error *error)
+                              const fst_progress *progress, fst_error *error)
 {
     fst_status status = fst_sweep_rows_begin(&e->rows, &e->file, error);
+    e->rows.progress = progress;
     if (status == FST_OK) {
         e->row = e->rows.row;
         e->columns = fst_sweep_column_count(e->file.grid);
@@ -364,12 +365,12 @@ static fst_status export_rows(exporter *e, fst_export_format format, const char 
 }
 
 fst_status fst_sweep_export(const char *path, fst_export_format format, const char *out, FILE *stream,
-                            fst_error *error)
+                            const fst_progress *progress, fst_error *error)
 {
     exporter e = {.path = path};
     fst_status status = fst_sweep_file_open(path, 0, &e.file, error);
     if (status == FST_OK)
-        status = export_rows(&e, format, out, stream, error);
+        status = export_rows(&e, format, out, stream, progress, error);
     fst_sweep_file_close(&e.file);
     return status;
 }

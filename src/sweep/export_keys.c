@@ -25,6 +25,7 @@ typedef struct table_writer {
     int places[MOST_KEYS]; /* of the keys among the columns of the database */
     int status;            /* the place of the status there */
     FILE *stream;
+    const fst_progress *progress;
 } table_writer;
 
 /* ------------------------------------------------------------------ units */
@@ -140,12 +141,16 @@ static fst_status write_point(const table_writer *w, int64_t point, sqlite3_stmt
 }
 
 /* Points without a row, up to the next one that has one. */
-static fst_status write_gap(const table_writer *w, int64_t from, int64_t to, fst_error *error)
+static fst_status write_gap(const table_writer *w, const fst_sweep_rows *rows, int64_t from, int64_t to,
+                            fst_error *error)
 {
     fst_status status = FST_OK;
-    for (int64_t point = from; point < to && !w->is_refined && status == FST_OK; ++point)
+    for (int64_t point = from; point < to && !w->is_refined && status == FST_OK; ++point) {
         if (fst_sweep_has_point(&w->file.identity, point))
             status = write_point(w, point, NULL, error);
+        if (status == FST_OK)
+            status = fst_sweep_rows_tell(rows, point, error);
+    }
     return status;
 }
 
@@ -168,6 +173,7 @@ static fst_status write_rows(table_writer *w, fst_error *error)
     int more = 0;
     fst_params first;
     fst_status status = fst_sweep_rows_begin(&rows, &w->file, error);
+    rows.progress = w->progress;
     if (status == FST_OK)
         status = find_places(w, rows.row, error);
     if (status == FST_OK)
@@ -177,13 +183,13 @@ static fst_status write_rows(table_writer *w, fst_error *error)
         write_head(w, &scales);
     }
     while (status == FST_OK && (status = fst_sweep_rows_next(&rows, &more, error)) == FST_OK && more) {
-        status = write_gap(w, behind, rows.next - 1, error);
+        status = write_gap(w, &rows, behind, rows.next - 1, error);
         if (status == FST_OK)
             status = write_point(w, rows.next - 1, rows.row, error);
         behind = rows.next;
     }
     if (status == FST_OK)
-        status = write_gap(w, behind, fst_grid_points(w->file.grid), error);
+        status = write_gap(w, &rows, behind, fst_grid_points(w->file.grid), error);
     if (status == FST_OK && !fst_sweep_rows_are_whole(&rows))
         status = fst_sweep_rows_fail(&rows, "", error);
     fst_sweep_rows_end(&rows);
@@ -205,10 +211,10 @@ static fst_status write_file(table_writer *w, const char *out, fst_error *error)
 }
 
 fst_status fst_sweep_export_keys(const char *path, const char *const *keys, int count, fst_shown_units units,
-                                 const char *out, FILE *stream, fst_error *error)
+                                 const char *out, FILE *stream, const fst_progress *progress, fst_error *error)
 {
     static const char *const usual[] = {"regime", "mean_r", "std_r", "mean_alpha_dot"};
-    table_writer w = {.keys = keys, .count = count, .units = units, .stream = stream};
+    table_writer w = {.keys = keys, .count = count, .units = units, .stream = stream, .progress = progress};
     if (count == 0) {
         w.keys = usual;
         w.count = (int)(sizeof usual / sizeof *usual);

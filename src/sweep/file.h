@@ -61,6 +61,7 @@ typedef struct fst_sweep_rows {
     int begun;
     int64_t sound; /* sound rows so far */
     fst_lost_points lost;
+    const fst_progress *progress; /* asked now and then whether to go on; NULL unless set after the beginning */
 } fst_sweep_rows;
 
 /* Read rows in the order of their points.  Call fst_sweep_rows_end() after a failure too. */
@@ -69,6 +70,9 @@ fst_status fst_sweep_rows_begin(fst_sweep_rows *rows, const fst_sweep_file *file
 /* Go to the next sound row; *more is 0 behind the last one.  Damage is passed over and noted. */
 fst_status fst_sweep_rows_next(fst_sweep_rows *rows, int *more, fst_error *error);
 void fst_sweep_rows_end(fst_sweep_rows *rows);
+
+/* What a reader of all points does at each: tell the progress, at every thousandth. */
+fst_status fst_sweep_rows_tell(const fst_sweep_rows *rows, int64_t point, fst_error *error);
 
 /* Whether nothing is wrong with the file, after all rows were read. */
 int fst_sweep_rows_are_whole(const fst_sweep_rows *rows);

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/watch.h"
 #include "sweep/columns.h"
 #include "sweep/file.h"
 
@@ -74,6 +75,14 @@ static int pass_damage(fst_sweep_rows *rows)
     return rows->next < end || !fst_database_is_damage(code) ? code : SQLITE_DONE;
 }
 
+fst_status fst_sweep_rows_tell(const fst_sweep_rows *rows, int64_t point, fst_error *error)
+{
+    enum { BETWEEN = 1024 };
+    if (!rows->progress || point % BETWEEN != 0)
+        return FST_OK;
+    return fst_tell(rows->progress, (double)point / (double)fst_grid_points(rows->file->grid), "rows", error);
+}
+
 fst_status fst_sweep_rows_next(fst_sweep_rows *rows, int *more, fst_error *error)
 {
     const fst_sweep_file *file = rows->file;
@@ -96,7 +105,7 @@ fst_status fst_sweep_rows_next(fst_sweep_rows *rows, int *more, fst_error *error
         if (fst_sweep_row_is_sound(rows->row, file->grid, file->seed)) {
             ++rows->sound;
             *more = 1;
-            return FST_OK;
+            return fst_sweep_rows_tell(rows, rows->sound, error);
         }
         fst_lost_points_add(&rows->lost, point, point);
     }

@@ -24,7 +24,7 @@ static void check_export(const char *path)
     FILE *out = open_memstream(&text, &size);
     if (!out)
         return;
-    const fst_status status = fst_sweep_export(path, FST_EXPORT_CSV, NULL, out, &error);
+    const fst_status status = fst_sweep_export(path, FST_EXPORT_CSV, NULL, out, NULL, &error);
     if (fclose(out) != 0)
         abort();
     if (status != FST_OK)

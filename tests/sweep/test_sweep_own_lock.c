@@ -87,7 +87,7 @@ static fst_status try_everything(void *user, double fraction, const char *what, 
         const char *path = i ? m->link : m->path;
         const char *const keys[] = {"mean_r"};
         expect_own(fst_sweep(&p, path, &o, &result, &error), &error);
-        expect_own(fst_sweep_export(path, FST_EXPORT_CSV, NULL, stderr, &error), &error);
+        expect_own(fst_sweep_export(path, FST_EXPORT_CSV, NULL, stderr, NULL, &error), &error);
         expect_own(fst_sweep_read(path, keys, 1, &table, &error), &error);
         expect_own(fst_sweep_read_grid(path, &grid, &error), &error);
         int is_sweep = 0;

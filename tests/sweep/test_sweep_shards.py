@@ -133,7 +133,7 @@ class Merging(Shards):
 
     def test_what_is_no_part(self):
         one = self.shard(1, 2)
-        self.assertIn("is there already", self.refused("merge", one, "-o", one))
+        self.assertIn("would be lost", self.refused("merge", one, "-o", one))
         with open(self.path("text"), "w") as file:
             file.write("words\n")
         self.good("sweep", *SHORT, "--over", "drive.frequency=9Hz:20Hz:5", "--refine", "1", "-o", self.path("refined.db"))
