@@ -213,6 +213,15 @@ class BadFiles(Measure):
         self.assertEqual((done.returncode, done.stdout), (2, ""))
         self.assertRegex(done.stderr, "--from: .*short.csv has frames 0 to 99: of those asked for it has none")
 
+    def test_a_decimal_comma_is_no_second_drive(self):
+        paths = [self.write(tracks.own(self.ROWS), name) for name in ("one.csv", "two.csv")]
+        for drive in ("10,7Hz", "10,7"):
+            done = subprocess.run([FESTOON, "measure", *paths, "--drive", drive], capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn("10 stands before a comma without a unit", done.stderr)
+        done = subprocess.run([FESTOON, "measure", *paths, "--drive", "10.7Hz,10.7Hz"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
     def test_a_track_is_not_overwritten(self):
         path = self.write(tracks.own(self.ROWS))
         done = subprocess.run([FESTOON, "measure", path, "-o", path], capture_output=True, text=True)
