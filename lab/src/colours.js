@@ -1,4 +1,6 @@
 /* colours.js - what both views paint alike. */
+/* Behind all, on the screen and on paper. */
+export const GROUND = { screen: "#141a22", paper: "#ffffff" };
 export const NORTH = "#d43d3d", SOUTH = "#3b6fd4";
 export const ARROWS = { moment: "#f2c230", field: "#7fd0ff", friction: "#ff8a5c", load: "#9be08a" };
 /* Lengths of arrows, in bead radii for one weight of the bead.  The magnet pulls the bead down with some twenty. */

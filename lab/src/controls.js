@@ -88,7 +88,7 @@ export class Controls {
             help.hidden = !help.hidden;
             more.setAttribute("aria-expanded", String(!help.hidden));
         });
-        const row = { info, unit, factor, error, slider: null };
+        const row = { info, unit, factor, error, label, slider: null };
         if (info.kind === "choice") {
             row.field = element("select", { id, "aria-describedby": `${id}-error` }, ...info.names.map((name) => element("option", { value: name }, T.choices[info.key]?.[name] || name)));
             row.field.addEventListener("change", () => this.take(row, row.field.value));
@@ -123,9 +123,12 @@ export class Controls {
             this.show(from);
     }
 
-    /* The values as the library has them now; `texts` are as they were typed. */
+    /* The values as the library has them now; `texts` are as they were typed.  In a wave no magnet turns. */
     show(from, texts = this.texts || {}) {
+        const wave = this.core.get("drive.waveform") === "wave";
         this.texts = texts;
+        this.rows.get("drive.frequency").label.textContent = wave ? T.waveFrequency : T.names["drive.frequency"];
+        this.rows.get("magnet.depth").box.hidden = wave;
         for (const [key, row] of this.rows) {
             const { info, unit, factor } = row, value = this.core.value(key), said = this.core.get(key);
             if (row.field === document.activeElement && row.field.getAttribute("aria-invalid") === "true")
@@ -137,7 +140,7 @@ export class Controls {
                 continue;
             }
             row.field.value = shown(/[a-z]/i.test(texts[key] || "") ? texts[key] : (said === "" ? "" : `${plain(value * factor)}${unit && ` ${unit}`}`));
-            row.field.placeholder = said !== "" ? "" : unit ? say(T.notGivenIn, { unit }) : T.notGiven;
+            row.field.placeholder = said !== "" ? "" : unit ? shown(`… ${unit}`) : T.notGiven;
             if (row.slider && row.slider !== from && said !== "")
                 row.slider.value = String(value * factor);
         }

@@ -286,12 +286,12 @@ export class Core {
 
     /* The same of samples from a file, each a time (1/gamma), turns of the magnet and twelve numbers of each bead. */
     replay(samples, count, take) {
-        this.c.lab_forget(this.bead);
         this.take = (rows) => (take(rows) ? 1 : 0);
         const at = this.given(this.c.lab_alloc(8 * samples.length));
         try {
             this.doubles(at, samples.length).set(samples);
             this.check(this.c.lab_replay(this.bead, at, count));
+            this.c.lab_forget(this.bead); /* not before: a motion goes on where the samples are refused */
         } finally {
             this.c.lab_release(at);
         }

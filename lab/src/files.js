@@ -6,7 +6,7 @@ import { readScene, readTrack, writeScene } from "./state.js";
 import { say, T } from "./texts.js";
 import { readTrajectory } from "./trajectory.js";
 
-const LONGEST_FILE = 20e6, DEGREES = 180 / Math.PI;
+const LONGEST_FILE = 20e6, FILM = /\.(webm|mp4|m4v|mov|avi|mkv|mpe?g|wmv|gif)$/i, DEGREES = 180 / Math.PI;
 
 function save(name, blob) {
     const address = URL.createObjectURL(blob), link = element("a", { href: address, download: name });
@@ -97,6 +97,8 @@ export class Files {
     async open(file) {
         const { lab } = this, name = file.name.slice(0, 80);
         try {
+            if (FILM.test(file.name) || /^video/.test(file.type))
+                throw new Error(T.bad.film);
             if (file.size > LONGEST_FILE)
                 throw new Error(T.bad.large);
             const text = await file.text();
@@ -105,8 +107,9 @@ export class Files {
                 const scene = trajectory?.scene ?? readScene(text), view = { ...lab.viewWords(), "ui.ramp": "0", "ui.settle": "0" }; /* a scene begins at its own start */
                 let wrong = null;
                 lab.replace(() => {
-                    lab.lesson.close();
                     wrong = lab.open({ scene, view }, trajectory);
+                    if (!wrong)
+                        lab.lesson.close();
                 });
                 lab.tell(wrong ? say(T.pair, { name, value: wrong }) : say(trajectory ? T.replayed : T.opened, { name }), Boolean(wrong));
             } else {

@@ -43,7 +43,6 @@ export class Lesson {
         document.body.classList.add("lesson-on");
         this.build();
         lab.hideTrail = true;
-        lab.showTrack(null);
         lab.open({ scene: step.scene, view: { "ui.settle": String(step.settle ?? 0), ...step.view } });
         lab.play(false);
         document.body.classList.add("lesson-waits"); /* nothing tells the answer before it is given */
@@ -100,8 +99,10 @@ export class Lesson {
         this.observe();
         document.body.classList.remove("lesson-waits");
         this.lab.play(true);
-        if (step.plot)
+        if (step.plot) {
             this.lab.panels.choosePlot(step.plot);
+            document.getElementById("plots").scrollIntoView({ block: "nearest" });
+        }
         if (step.sweep) {
             ["sweep-from", "sweep-to", "sweep-points"].forEach((id, i) => {
                 document.getElementById(id).value = shown(step.sweep[i]);

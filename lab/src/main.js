@@ -166,25 +166,21 @@ class Lab {
         $("notice").classList.toggle("bad", bad);
     }
 
-    /* Take a scene; on an error the old one stays and the sentence is returned. */
-    takeScene(scene) {
+    /* Take a scene; on an error the old one stays and the sentence is returned.  The samples of a trajectory of this scene
+     * take the place of what would be computed, until the scene changes. */
+    takeScene(scene, trajectory = null) {
         try {
             this.core.setScene(scene);
         } catch (error) {
             return sentence(error);
         }
-        this.scene = { ...scene };
-        this.replayed = null;
-        return null;
-    }
-
-    /* The samples of a trajectory of this scene take the place of what would be computed, until the scene changes. */
-    takeTrajectory(trajectory) {
         try {
-            this.replayed = recordingOf(trajectory, this.core);
+            this.replayed = trajectory && recordingOf(trajectory, this.core);
         } catch (error) {
+            this.core.setScene(this.scene);
             return sentence(error);
         }
+        this.scene = { ...scene };
         return null;
     }
 
@@ -496,16 +492,20 @@ class Lab {
         this.panels.showView();
     }
 
-    /* A whole state: scene and view, and perhaps a trajectory of the scene to be played. */
+    /* A whole state: scene and view, and perhaps a trajectory of the scene to be played.  Where they are refused nothing
+     * changes, and the sentence is returned. */
     open({ scene, view }, trajectory = null) {
-        const wrong = this.takeScene(scene) ?? (trajectory && this.takeTrajectory(trajectory));
+        const wrong = this.takeScene(scene, trajectory);
+        if (wrong) {
+            this.tell(wrong, true);
+            return wrong;
+        }
+        this.showTrack(null); /* it was of another scene */
         this.takeView(view);
         this.begin();
-        if (wrong)
-            this.tell(wrong, true);
         this.controls.show(null, this.scene);
         this.changed();
-        return wrong;
+        return null;
     }
 
     /* The state that the address tells, of which what is bad or unknown is named and left out.  The Back and Forward of
@@ -550,7 +550,6 @@ class Lab {
 
     openPreset(preset) {
         this.hideTrail = false;
-        this.showTrack(null);
         this.open({ scene: preset.scene, view: { "ui.settle": String(preset.settle ?? 0), ...preset.view } });
         this.play(true);
     }

@@ -1,7 +1,7 @@
 /* panels.js - what stands around the view: transport, cameras, presets, plots, numbers. */
 import { isOneOfTwo, openBeside } from "./beside.js";
 import { CAMERAS } from "./camera.js";
-import { ARROWS, BEADS } from "./colours.js";
+import { ARROWS, BEADS, GROUND } from "./colours.js";
 import { element, sentence } from "./controls.js";
 import { COLUMN } from "./core.js";
 import { canDrag } from "./drag.js";
@@ -128,10 +128,12 @@ export class Panels {
     buildPaper() {
         const set = (paper) => {
             this.canvas.paper = paper;
+            this.lab.view.lieOn(paper ? GROUND.paper : GROUND.screen);
+            this.lab.draw();
             this.frame(Infinity);
         };
         window.addEventListener("beforeprint", () => {
-            const given = Object.entries(this.lab.scene).map(([key, value]) => say(T.pair, { name: T.names[key] || key, value: T.choices[key]?.[value] || shown(value) }));
+            const given = Object.entries(this.lab.scene).map(([key, value]) => say(T.pair, { name: this.lab.controls.rows.get(key)?.label.textContent ?? key, value: T.choices[key]?.[value] || shown(value) }));
             $("paper").textContent = `${given.length ? say(T.paper, { given: given.join("; ") }) : T.paperDefault} ${$("stamp").textContent}.`;
             set(true);
         });
@@ -333,11 +335,12 @@ export class Panels {
             $("legend").replaceChildren(...arrows, ...lab.rows.map((bead, i) => {
                 const dot = element("b");
                 dot.style.background = BEADS[i];
-                return element("span", {}, dot, say(T.bead, { n: i }));
+                return element("span", {}, dot, say(T.bead, { n: i + 1 }));
             }));
             return;
         }
-        $("legend").replaceChildren(...arrows, element("span", {}, say(T.pair, { name: T.quantities[lab.settings.colour], value: digits(range[0], 3) }), bar, `${digits(range[1], 3)}${unit && ` ${unit}`}`));
+        const [from, to] = T.ends[lab.settings.colour] ?? [say(T.pair, { name: T.quantities[lab.settings.colour], value: digits(range[0], 3) }), `${digits(range[1], 3)}${unit && ` ${unit}`}`];
+        $("legend").replaceChildren(...arrows, element("span", {}, from, bar, to));
     }
 
     drawPhi() {
@@ -423,8 +426,8 @@ export class Panels {
         $("regime").textContent = T.outcomes[result.outcome] ?? T.outcomes.undecided;
         this.showWhy(`${result.sentence[0].toUpperCase()}${result.sentence.slice(1)}. ${result.reason || ""}`);
         this.fill([
-            ...result.beads.map((bead, i) => [say(T.bead, { n: i }), `${digits(bead.mean_r === null ? null : bead.mean_r * mm)} mm, ${digits(bead.mean_alpha_dot === null ? null : bead.mean_alpha_dot * hertz)} Hz`]),
-            [T.rows.touching, result.contacts.filter(({ b }) => b !== null).map(({ a, b }) => `${a}–${b}`).join(", ") || "–"],
+            ...result.beads.map((bead, i) => [say(T.bead, { n: i + 1 }), `${digits(bead.mean_r === null ? null : bead.mean_r * mm)} mm, ${digits(bead.mean_alpha_dot === null ? null : bead.mean_alpha_dot * hertz)} Hz`]),
+            [T.rows.touching, result.contacts.filter(({ b }) => b !== null).map(({ a, b }) => `${a + 1}–${b + 1}`).join(", ") || "–"],
             [T.rows.impacts, result.powers.drive ? percent(result.powers.impacts / result.powers.drive) : "–"],
         ]);
     }
@@ -447,18 +450,21 @@ export class Panels {
         $("regime").textContent = regimeSentence(result.regime, measures);
         this.showWhy(result.reason);
         const circles = result.mean_alpha_dot === null ? null : result.mean_alpha_dot * hertz;
-        const rows = [
+        const wave = result.scene["drive.waveform"] === "wave"; /* which has no axis to circle about */
+        const rows = wave ? [] : [
             [T.rows.mean_r, result.mean_r === null ? "–" : `${digits(result.mean_r * mm)} mm`],
             [T.rows.std_r, result.std_r === null ? "–" : `${digits(result.std_r * mm, 3)} mm`],
             [T.rows.bead, circles === null ? "–" : `${digits(Math.abs(circles))} Hz ${circles < 0 ? T.against : T.along}`],
             [T.rows.festoons, festoons ?? "–"],
+        ];
+        rows.push(
             [T.rows.angle, result.max_angle_deg === null ? "–" : `${digits(result.max_angle_deg, 3)}°`],
             [T.rows.slip, result.rms_slip === null ? "–" : `${digits(result.rms_slip * mm / result.groups.time_unit_s, 3)} mm/s`],
             ...(result.never_slips === null ? [] : [[T.rows.sticking, result.sticking === null ? "–" : percent(result.sticking)]]),
-            [T.rows.symmetry, T.symmetries[result.symmetry] || "–"],
+            ...(wave ? [] : [[T.rows.symmetry, T.symmetries[result.symmetry] || "–"]]),
             ...(Number.isFinite(result.mean_velocity) ? [[T.rows.velocity, `${digits(result.mean_velocity * mm / result.groups.time_unit_s)} mm/s`]] : []),
             ...(Number.isFinite(result.mean_height) ? [[T.rows.height, `${digits(result.mean_height * mm)} mm`]] : []),
-        ];
+        );
         this.fill(lab.recording ? rows.filter(([, value]) => value !== "–") : rows);
     }
 }

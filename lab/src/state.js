@@ -124,7 +124,7 @@ export function readScene(text) {
         const bad = () => new Error(say(T.bad.row, { line: number }));
         if (!line.trim() || line.trim() === "---")
             return;
-        const flow = /^(\s*)- +(\{.*\})$/.exec(line), found = flow || /^(\s*)(- +)?"?([A-Za-z_][\w.]*)"?\s*:\s*(.*)$/.exec(line);
+        const flow = /^(\s*)- +(\{.*\})$/.exec(line), found = flow || /^(\s*)(- +)?"?([A-Za-z_][\w.[\]]*)"?\s*:\s*(.*)$/.exec(line);
         const begins = flow || found?.[2];
         if (begins && list === null && group)
             list = { key: group, depth: -1, count: 0 }; /* the list is the group itself, as of beads */
@@ -153,12 +153,22 @@ export function readScene(text) {
     return { ...scene };
 }
 
+/* How the lines of a table fall into cells, by the line of names: at its commas, or else at the semicolons or tabs of a
+ * spreadsheet, whose numbers may have decimal commas. */
+export function cellsBy(names) {
+    const sign = names.includes(",") ? "," : [";", "\t"].find((mark) => names.includes(mark)) ?? ",";
+    return (line) => line.split(sign).map((cell) => {
+        const bare = cell.trim().replace(/^"(.*)"$/, "$1");
+        return sign === "," ? bare : bare.replace(/,(?=\d)/g, ".");
+    });
+}
+
 /* A track as `festoon track` writes it, or any table with columns x and y: places in mm about their centre. */
 export function readTrack(text) {
     const lines = text.replace(/^\uFEFF/, "").split(/\r?\n/).map((line, index) => ({ line, number: index + 1 }))
-        .filter(({ line }) => line.trim() && !line.startsWith("#"));
-    const cells = (line) => line.split(/[,;\t]/).map((cell) => cell.trim().replace(/^"(.*)"$/, "$1"));
-    const heads = cells(lines[0]?.line || "").map((head) => /^(.*?)\s*(?:\[(.*)\])?$/.exec(head.slice(0, LONGEST)));
+        .filter(({ line }) => /[^\s;]/.test(line) && !/^"?#/.test(line));
+    const names = lines[0]?.line || "", cells = cellsBy(names);
+    const heads = cells(names).map((head) => /^(.*?)\s*(?:\[(.*)\])?$/.exec(head.slice(0, LONGEST)));
     const column = (name) => heads.findIndex((head) => head && head[1].toLowerCase() === name);
     const x = column("x"), y = column("y");
     if (x < 0 || y < 0)

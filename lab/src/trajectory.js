@@ -1,18 +1,23 @@
 /* trajectory.js - a file of `festoon run --csv`: its scene, and its samples as rows that the page plays. */
 import { COLUMN, COLUMNS } from "./core.js";
-import { readScene } from "./state.js";
+import { cellsBy, readScene } from "./state.js";
 import { say, T } from "./texts.js";
 
 const TURN = 2 * Math.PI, MOST = 1e12;
 
+/* A line of the head as a spreadsheet may have left it: quoted, and with semicolons or tabs for the commas that it took
+ * for ends of cells, and behind it for the cells that are empty. */
+const headLine = (line) => line.replace(/^"(.*)"([;\t]*)$/, "$1").replace(/""/g, '"').replace(/[;\t]+$/, "").replace(/[;\t]/g, ",");
+
 /* What stands in such a file, or null if it is none: the scene of its head, the names and units of its columns, lines. */
 export function readTrajectory(text) {
-    if (!/^\uFEFF?# festoon trajectory/.test(text))
+    if (!/^\uFEFF?"?# festoon trajectory/.test(text))
         return null;
-    const lines = text.split(/\r?\n/).map((line, index) => ({ line, number: index + 1 }));
-    const head = lines.filter(({ line }) => line.startsWith("#   ")).map(({ line }) => line.slice(4)), [names, ...rows] = lines.filter(({ line }) => line && !/^\uFEFF?#/.test(line));
-    const columns = new Map((names?.line ?? "").split(",").map((name, at) => [/^\S*/.exec(name)[0], { at, unit: /\[(.*)\]/.exec(name)?.[1] ?? "" }]));
-    return { scene: readScene(head.join("\n")), columns, rows };
+    const lines = text.replace(/^\uFEFF/, "").split(/\r?\n/).map((line, index) => ({ line, number: index + 1 })).filter(({ line }) => /[^\s;]/.test(line));
+    const isHead = ({ line }) => /^"?#/.test(line), scene = lines.filter(isHead).map(({ line }) => headLine(line)).filter((line) => line.startsWith("#   ")).map((line) => line.slice(4));
+    const [names, ...rows] = lines.filter((line) => !isHead(line)), cells = cellsBy(names?.line ?? "");
+    const columns = new Map(cells(names?.line ?? "").map((name, at) => [/^\S*/.exec(name)[0], { at, unit: /\[(.*)\]/.exec(name)?.[1] ?? "" }]));
+    return { scene: readScene(scene.join("\n")), columns, rows: rows.map(({ line, number }) => ({ cells: cells(line), number })) };
 }
 
 /* Factors from the units of a file (--units scaled, lab or si) to those of a row: scaled ones, loads in weights. */
@@ -37,8 +42,8 @@ export function recordingOf({ columns, rows }, core) {
     const read = [needed("t"), needed("drive_turns")];
     for (let i = 0; i < beads; ++i)
         read.push(...state.map((name) => needed(listed ? `${name}_${i}` : name)));
-    const lines = rows.map(({ line, number }) => ({ cells: line.split(","), number })), samples = new Float64Array(lines.length * read.length);
-    lines.forEach(({ cells, number }, i) => read.forEach(({ name, at, factor }, k) => {
+    const samples = new Float64Array(rows.length * read.length);
+    rows.forEach(({ cells, number }, i) => read.forEach(({ name, at, factor }, k) => {
         const value = Number(cells[at] || NaN) * factor;
         if (!(Math.abs(value) < MOST))
             throw new Error(say(T.bad.cell, { line: number, name }));
@@ -46,11 +51,11 @@ export function recordingOf({ columns, rows }, core) {
             throw new Error(say(T.bad.time, { line: number }));
         samples[i * read.length + k] = value + (!listed && k === 4 ? eps : 0);
     }));
-    if (lines.length < 3)
+    if (rows.length < 3)
         throw new Error(T.bad.few);
     const made = [];
-    core.replay(samples, lines.length, (seen) => {
-        made.push(fillForces(Float64Array.from(seen), lines[made.length].cells, beads, listed, column));
+    core.replay(samples, rows.length, (seen) => {
+        made.push(fillForces(Float64Array.from(seen), rows[made.length].cells, beads, listed, column));
         return false;
     });
     return made;

@@ -2,13 +2,18 @@
 import { COLUMN } from "./core.js";
 import { magnetisation } from "./magnet.js";
 import { PALETTE } from "./trail.js";
-import { ARROWS, FRICTION, NORTH, SOUTH, TOUCH } from "./colours.js";
+import { ARROWS, FRICTION, GROUND, NORTH, SOUTH, TOUCH } from "./colours.js";
 
 export class View2D {
     constructor(canvas) {
         this.canvas = canvas;
         this.pen = canvas.getContext("2d");
         this.points = null;
+        this.back = GROUND.screen;
+    }
+
+    lieOn(colour) {
+        this.back = colour;
     }
 
     furnish(setup) {
@@ -37,7 +42,7 @@ export class View2D {
         const reach = (close ? 6 * setup.eps : Math.max(...setup.hull.map(([radius]) => radius))) / camera.place.zoom;
         const scale = Math.min(canvas.width, canvas.height) / (2 * reach);
         pen.setTransform(1, 0, 0, 1, 0, 0);
-        pen.fillStyle = "#141a22";
+        pen.fillStyle = this.back;
         pen.fillRect(0, 0, canvas.width, canvas.height);
         pen.setTransform(scale, 0, 0, -scale, canvas.width / 2, canvas.height / 2);
         pen.rotate(-((camera.place.azimuth + 90) * Math.PI) / 180 - (riding ? phase : 0));

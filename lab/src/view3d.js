@@ -6,7 +6,7 @@ import {
     BoxGeometry,
 } from "three";
 import { COLUMN } from "./core.js";
-import { ARROWS, FRICTION, LOAD, NORTH, SOUTH, TOUCH } from "./colours.js";
+import { ARROWS, FRICTION, GROUND, LOAD, NORTH, SOUTH, TOUCH } from "./colours.js";
 import { PALETTE } from "./trail.js";
 
 const TRACK_ROOM = 20000, FOV = 34, OLD = 0.75, BACK = [0.2, 0.23, 0.28];
@@ -170,7 +170,7 @@ export class View3D {
     constructor(canvas, room) {
         this.canvas = canvas;
         this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
-        this.renderer.setClearColor(new Color("#141a22"));
+        this.lieOn(GROUND.screen);
         this.scene = new Scene();
         this.eye = new PerspectiveCamera(FOV, 1, 0.01, 100);
         const sun = new DirectionalLight("#ffffff", 2.2);
@@ -242,6 +242,10 @@ export class View3D {
         const mesh = new Mesh(new PlaneGeometry(side, side / 2), new MeshBasicMaterial({ map: texture, transparent: true, opacity: 0.75, side: DoubleSide, depthWrite: false }));
         mesh.position.z = -0.01;
         return { mesh, texture, side };
+    }
+
+    lieOn(colour) {
+        this.renderer.setClearColor(new Color(colour));
     }
 
     /* Plate and magnet of a setup. */

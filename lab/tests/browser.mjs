@@ -189,7 +189,7 @@ const tests = {
                 lab.play(true);
                 return [Math.abs(lab.row[0] - before - 0.1) < 1e-9 && done > 0.09, lab.trails.every((trail) => trail.count > 100), document.getElementById("legend").textContent];
             });
-            assert.deepEqual(gone, [true, true, "bead 0bead 1"]);
+            assert.deepEqual(gone, [true, true, "bead 1bead 2"]);
             await page.evaluate(() => window.festoonLab.lab.advance(100));
             assert.match(await page.$eval("#notice", (notice) => notice.textContent), /run ends here/);
             await click(page, "#play");
@@ -220,13 +220,15 @@ const tests = {
             const page = await open("", { size });
             await click(page, "#lesson-open");
             for (let step = 1; step <= 6; ++step) {
-                assert.match(await page.$eval("#lesson h2", (heading) => heading.textContent), new RegExp(`^Lesson ${step}:`));
+                assert.match(await page.$eval("#lesson h2", (heading) => heading.textContent), new RegExp(`^Step ${step}:`));
                 assert.equal(await page.evaluate(() => window.festoonLab.lab.playing), false, "nothing moves before the answer");
                 assert.equal(await page.$("#lesson .explain"), null);
                 assert.equal(await page.$eval("#regime", (text) => getComputedStyle(text).visibility), "hidden", "nothing tells the answer");
                 await picture(page, `${name}-lesson-${step}-question`);
                 await click(page, "#lesson .answers button:last-child");
                 assert.equal(await page.evaluate(() => window.festoonLab.lab.playing), true);
+                if (step === 5)
+                    assert.ok(await page.$eval("#plot", (plot) => plot.getBoundingClientRect().top > 0 && plot.getBoundingClientRect().bottom <= window.innerHeight), "the curve is on the screen");
                 await click(page, "#lesson .strong");
                 assert.ok((await page.$eval("#lesson .explain", (text) => text.textContent)).length > 100);
                 await described(page);
@@ -408,6 +410,11 @@ const tests = {
             await window.festoonLab.lab.files.open(new File([t], n));
             return [document.getElementById("notice").textContent, document.getElementById("notice").children.length];
         }, name, text);
+        const state = () => page.evaluate(() => {
+            const { lab } = window.festoonLab;
+            lab.play(false);
+            return [JSON.stringify(lab.scene), window.festoonLab.core.scene(), lab.row[0], lab.trail.count, location.hash, lab.track.length, lab.lesson.at];
+        });
         await click(page, "[data-preset=critical]");
         await drop("bead.yaml", festoon("init", "-", "--set", "drive.frequency=16Hz"));
         assert.deepEqual(await page.evaluate(() => [window.festoonLab.lab.settings.ramp, window.festoonLab.lab.settings.settle]), [null, 0], "nothing of the experiment before");
@@ -415,13 +422,17 @@ const tests = {
         const track = `frame,t [s],x [mm],y [mm]\n${Array.from({ length: 90 }, (_, i) => `${i},${i / 30},${18 * Math.cos(i / 9)},${18 * Math.sin(i / 9)}`).join("\n")}\n`;
         assert.match((await drop("track.csv", track))[0], /90 places/);
         await picture(page, "wide-track");
+        const before = await state();
+        assert.match((await drop("bead.webm", "x"))[0], /^bead\.webm: this is a film; festoon track/);
         const bad = "<img src=x onerror=\"document.title='hit'\">";
         for (const [name, text] of [[`${bad}.yaml`, `drive:\n  ${bad}: 3\n`], ["x.yaml", `drive:\n  frequency: ${bad}\n`], [`${bad}.csv`, `x [${bad}],y\n1,2\n`]]) {
             const [notice, children] = await drop(name, text);
             assert.ok(notice.length > 10 && children === 0);
         }
         assert.notEqual(await page.title(), "hit");
-        assert.equal(await page.evaluate(() => window.festoonLab.core.value("drive.frequency")), 16);
+        assert.deepEqual(await state(), before, "what is refused changes nothing, and the track stays");
+        await drop("bead.yaml", festoon("init", "-", "--set", "drive.frequency=17Hz"));
+        assert.deepEqual(await page.evaluate(() => [window.festoonLab.lab.track, window.festoonLab.core.value("drive.frequency")]), [null, 17], "a track belongs to its scene");
         await close(page);
     },
     async "a dropped trajectory is played as it was recorded, in its own scene; a change computes anew"() {
@@ -451,8 +462,25 @@ const tests = {
         assert.deepEqual(await page.evaluate(() => [window.festoonLab.lab.recording, window.festoonLab.lab.row[0]]), [null, 0]);
         await drop("two.csv", csv("drive.frequency=30Hz", "beads[0].start.phi=3deg", "beads[1].start.phi=40deg", "run.periods=6", "run.discard=1"));
         assert.equal((await state()).rows, 2);
-        await drop("<b>bad</b>.csv", single.replace("14.5 Hz", "14.5 furlong"));
-        assert.match(await page.$eval("#notice", (notice) => notice.textContent), /^<b>bad<\/b>\.csv: drive\.frequency/);
+        const kept = () => page.evaluate(() => {
+            const { lab } = window.festoonLab;
+            lab.play(false);
+            return [JSON.stringify(lab.scene), window.festoonLab.core.scene(), lab.rows.length, lab.row[0], lab.trail.count, lab.replayed !== null, lab.lesson.at, location.hash];
+        });
+        for (const open of ["[data-preset=critical]", "#lesson-open", null]) {
+            if (open)
+                await click(page, open);
+            else
+                await drop("mine.csv", single);
+            await page.evaluate(() => window.festoonLab.lab.advance(0.5));
+            const before = await kept();
+            await drop("<b>bad</b>.csv", single.replace("14.5 Hz", "14.5 furlong"));
+            assert.match(await page.$eval("#notice", (notice) => notice.textContent), /^<b>bad<\/b>\.csv: drive\.frequency/);
+            await drop("cell.csv", single.replace(/\d+\n$/, "oops\n").replace(/^0,[^,]*/m, "0,oops"));
+            assert.match(await page.$eval("#notice", (notice) => notice.textContent), /^cell\.csv: line \d+: drive_turns must be a number/);
+            assert.deepEqual(await kept(), before, "a refused file changes nothing");
+            assert.ok(await page.evaluate(() => window.festoonLab.lab.advance(0.01)) >= 0, "and the motion goes on");
+        }
         await close(page);
     },
     async "parts of a magnet are dragged in the view from above, and with the magnet; elsewhere a pointer turns the view"() {
@@ -758,6 +786,15 @@ const tests = {
         });
         assert.deepEqual(raw.filter((text) => !/^n_z/.test(text)), []);
         await picture(page, "wide-none");
+        const words = () => page.evaluate(() => [document.querySelector("label[for=p-drive-frequency]").textContent, document.getElementById("p-magnet-depth").checkVisibility(), document.getElementById("legend").textContent,
+            [...document.querySelectorAll("#numbers dt")].map((name) => name.textContent).filter((name) => /distance|circles|festoons|symmetry|velocity/.test(name))]);
+        await click(page, "[data-preset=wave]");
+        await page.waitForFunction(() => /velocity/.test(document.getElementById("numbers").textContent), { timeout: 0 });
+        const [name, depth, , rows] = await words();
+        assert.deepEqual([name, depth, rows], ["Frequency of the wave", false, ["mean velocity along the wave"]], "nothing of a magnet that turns, nor of its axis");
+        await click(page, "[data-preset=dry]");
+        await page.waitForFunction(() => /festoons/.test(document.getElementById("numbers").textContent) && /sticks/.test(document.getElementById("legend").textContent), { timeout: 0 });
+        assert.deepEqual((await words()).slice(0, 3), ["Speed of the magnet", true, "frictionslipssticks"]);
         await close(page);
     },
     async "the picture fills the screen with its controls, and leaves it"() {

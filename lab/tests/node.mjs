@@ -208,7 +208,7 @@ const scripts = {
         /* What is the same in English, and may be. */
         const same = {
             de: ["/pair", "/percent", "/plots/path", "/worksheet/name", "/groups/magnet", "/groups/start"],
-            fr: ["/plots/path", "/quantities/r", "/groups/contact", "/worksheet/date"], es: ["/pair", "/percent"], zh: [],
+            fr: ["/pause", "/plots/path", "/quantities/r", "/groups/contact", "/worksheet/date"], es: ["/pair", "/percent"], zh: [],
         };
         assert.deepEqual(Object.keys(LANGUAGES), Object.keys(TABLES));
         const english = new Map(textsOf(TABLES.en));
@@ -257,8 +257,9 @@ const scripts = {
                 speak(language);
                 assert.equal(shown("900.5 rpm"), `900${comma}5 rpm`);
                 assert.equal(shown(10.7), `10${comma}7`);
-                for (const text of ["10.7 Hz", "-3.25 deg", "1e-3", "0.3cm", "1.5e3 Pa"])
+                for (const text of ["10.7 Hz", "-3.25 deg", "1e-3", "0.3cm", "1.5e3 Pa", "9.81 m/s^2", "7500 kg/m^3"])
                     assert.equal(plainOf(shown(text)), text, language);
+                assert.deepEqual(["-3", "2e-7 m", "1-2", "farago-2", "5 A m^2"].map(shown), ["−3", "2e−7 m", "1-2", "farago-2", "5 A m²"]);
             }
             speak("zh");
             assert.equal(plainOf("１０．７ Hz"), "10.7 Hz");
@@ -338,6 +339,32 @@ const scripts = {
         assert.throws(() => readTrack("x,y\n1,1\n1,1\n1,1\n"), /the same/);
         assert.throws(() => readTrack(`x${" ".repeat(1e6)}z,y\n1,1\n`), /three places/, "and at once");
     },
+    "a table is read as a spreadsheet saves it: semicolons or tabs, decimal commas, empty lines, quoted remarks"() {
+        const places = Array.from({ length: 50 }, (_, i) => [7 + 20 * Math.cos(i), -3 + 20 * Math.sin(i)]), number = (value) => value.toExponential(12).replace(".", ",").replace("e", "E");
+        const plain = readTrack(`x [mm],y [mm]\n${places.map((p) => p.map((value) => value.toExponential(12)).join()).join("\n")}\n`);
+        for (const sign of [";", "\t"]) {
+            const saved = `\uFEFF"# a film, of ""mine"""${sign}${sign}\r\nframe${sign}x [mm]${sign}y [mm]\r\n${places.map((p, i) => [i, ...p.map(number)].join(sign)).join("\r\n")}\r\n${sign}${sign}\r\n`;
+            assert.deepEqual(readTrack(saved), plain);
+        }
+        assert.deepEqual(readTrack("x;y\n1.5;2\n3;4,5\n6;7\n").unit, "px");
+        assert.throws(() => readTrack("x;y\n1.000,5;2\n"), /line 2/);
+        assert.throws(() => readTrack("x,y\n1;5\n2;6\n3;7\n"), /three places/, "the line of names says what the signs are");
+        const csv = join(scratch, "sheet.csv"), beads = ["beads[0].start.phi=3deg", "beads[1].start.phi=53deg"], levitating = Object.entries(PRESETS.find(({ id }) => id === "levitation").scene).map((pair) => pair.join("="));
+        for (const sets of [["drive.frequency=10.7Hz"], beads, [...levitating, "run.duration=0.02 s"]]) {
+            festoon("run", ...[...sets, "run.periods=2", "run.discard=1"].flatMap((set) => ["--set", set]), "--units", "lab", "--csv", csv);
+            const text = readFileSync(csv, "utf8"), own = readTrajectory(text);
+            for (const sign of [";", "\t"]) {
+                const width = text.split("\n").find((line) => !line.startsWith("#")).split(",").length;
+                const saved = text.split("\n").map((line) => {
+                    const cells = line.startsWith("#") ? line.split(",") : line.replaceAll(".", "{").split(",").map((cell) => cell.replace("{", ","));
+                    return cells.concat(Array(Math.max(0, width - cells.length)).fill("")).join(sign);
+                }).join("\r\n");
+                assert.deepEqual(JSON.stringify(readTrajectory(saved).scene), JSON.stringify(own.scene));
+                assert.deepEqual([...readTrajectory(saved).columns], [...own.columns]);
+                assert.deepEqual(readTrajectory(saved).rows.map(({ cells, number: line }) => [line, ...cells.map(Number)]), own.rows.map(({ cells, number: line }) => [line, ...cells.map(Number)]));
+            }
+        }
+    },
     async "a worker that memory ran out in is replaced by another"() {
         const answers = [{ problem: { message: "WebAssembly.Instance(): Out of memory" } }, {}, { problem: { status: 6, message: "out of memory" } }, {}, { result: 7 }, { problem: { status: 1, message: "bad" } }, { result: 8 }];
         let begun = 0, ended = 0;
@@ -385,6 +412,7 @@ const scripts = {
         const preset = (id) => result(PRESETS.find((found) => found.id === id).scene);
         assert.deepEqual([preset("walker").outcome, preset("opposite").outcome], ["walker", "apart"]);
         assert.deepEqual([preset("levitation").regime, preset("bowl").regime], ["levitating", "counter-rotating"]);
+        assert.equal(result(PRESETS.find(({ id }) => id === "twelve").scene).festoons.toFixed(0), "12");
         for (const step of LESSON)
             checked(...sets(step.scene));
         const gear = result({ "drive.frequency": 10.7 });

@@ -18,7 +18,7 @@ export default {
     drag: "Drag a part of the magnet to move it.",
     presets: "Experiments", details: "In detail",
     presetNames: {
-        locked: "Locked, 3 Hz", four: "10.7 Hz: four festoons", twelve: "14.5 Hz", many: "19.9 Hz: many festoons", critical: "Critical speed: a ramp",
+        locked: "Locked, 3 Hz", four: "10.7 Hz: four festoons", twelve: "14.5 Hz: twelve festoons", many: "19.9 Hz: many festoons", critical: "Critical speed: a ramp",
         none: "No friction", dry: "Dry friction: slip and stick", discs: "Two real magnets, 15 Hz", walker: "Two beads: a walker", opposite: "Two beads, opposite",
         levitation: "Levitation", bowl: "In a bowl", wave: "A travelling field",
     },
@@ -37,6 +37,7 @@ export default {
         load: "load on the plate", use: "use of static friction", sticks: "slips or sticks", angle: "angle of moment and field",
         spin: "spin about the moment", time: "time", z: "height of the centre",
     },
+    ends: { sticks: ["slips", "sticks"] }, // of a scale that has words for its numbers
     units: { weights: "weights" },
     plots: { phi: "Over the angle", sweep: "Over the speed", path: "Moment" },
     plotLabels: {
@@ -59,7 +60,7 @@ export default {
     replayed: "{name} is played as it was recorded. A change of a parameter computes the motion anew.",
     bad: {
         missing: "the trajectory has no column {name} in a unit that is known here", cell: "line {line}: {name} must be a number", time: "line {line}: the time must grow from line to line",
-        large: "the file is larger than 20 MB", twice: "line {line}: {key} is given twice", row: "line {line}: expected \"key: value\", as festoon init writes it",
+        large: "the file is larger than 20 MB", film: "this is a film; festoon track makes a track of it", twice: "line {line}: {key} is given twice", row: "line {line}: expected \"key: value\", as festoon init writes it",
         columns: "line {line}: expected columns named x and y, as in: frame,t [s],x [mm],y [mm]", unit: "line {line}: \"{unit}\" must be mm, cm, m or px",
         number: "line {line}: x and y must be numbers below {most}", few: "a track needs three places at least", same: "all places of the track are the same",
     },
@@ -67,7 +68,8 @@ export default {
     noWebgl: "This browser has no WebGL: the view is from above.",
     keys: "Keys: space plays and pauses, . makes a step, R begins anew, 1 to 4 choose the camera, 5 opens the lesson, F fills the screen. In the view the arrow keys turn it, + and − zoom.",
     viewLabel: "The bead on the plate, seen from the chosen camera",
-    lessonName: "Lesson", lessonClose: "Close the lesson", lessonTitle: "Lesson {n}: {title}", back: "Back", next: "Next",
+    waveFrequency: "Frequency of the wave",
+    lessonName: "Lesson", lessonClose: "Close the lesson", lessonTitle: "Step {n}: {title}", back: "Back", next: "Next",
     names: {
         "bead.radius": "Radius of the bead", "bead.mass": "Mass of the bead", "bead.moment": "Moment of the bead", "bead.material": "Magnetic material",
         "bead.inertia": "Moment of inertia (in m R²)", "bead.density": "Density of the bead", "bead.remanence": "Remanence of the bead",
@@ -91,7 +93,7 @@ export default {
         "run.until": { periods: "all its turns", settled: "when it repeats" },
     },
     groups: { bead: "Bead", magnet: "Magnet", drive: "Drive", friction: "Friction", contact: "Contact", impact: "Impact", model: "Model", plate: "Plate", start: "Start", run: "Run" },
-    about: "About: {name}", slider: "{name}, slider", notGiven: "not given", notGivenIn: "not given, in {unit}",
+    about: "About: {name}", slider: "{name}, slider", notGiven: "not given",
     predict: "Predict", observe: "Observe", explain: "Explain",
     lessonStep: "Step {n} of {all}",
     right: "That is what you will see.", wrong: "Look closely: it does something else.", why: "Why?",

@@ -17,7 +17,7 @@ export default {
     drag: "拖动磁铁的某一部分即可移动它。",
     presets: "实验项目", details: "详细说明",
     presetNames: {
-        locked: "锁定，3 Hz", four: "10.7 Hz：四段花彩", twelve: "14.5 Hz：花彩", many: "19.9 Hz：许多花彩", critical: "临界转速：逐渐加速",
+        locked: "锁定，3 Hz", four: "10.7 Hz：四段花彩", twelve: "14.5 Hz：十二段花彩", many: "19.9 Hz：许多花彩", critical: "临界转速：逐渐加速",
         none: "无摩擦", dry: "干摩擦：滑动与黏着", discs: "两块实际磁铁，15 Hz", walker: "两个小球：行走的一对", opposite: "两个小球，遥遥相对",
         levitation: "磁悬浮", bowl: "在碗中", wave: "行波磁场",
     },
@@ -36,6 +36,7 @@ export default {
         load: "对平板的压力", use: "静摩擦的利用程度", sticks: "滑动或黏着", angle: "磁矩与磁场的夹角",
         spin: "绕磁矩的自转", time: "时间", z: "球心高度",
     },
+    ends: { sticks: ["滑动", "黏着"] },
     units: { weights: "倍重力" },
     plots: { phi: "随角度变化", sweep: "随转速变化", path: "磁矩" },
     plotLabels: {
@@ -58,7 +59,7 @@ export default {
     replayed: "正在按记录播放 {name}。改变任何参数都会重新计算运动。",
     bad: {
         missing: "轨迹文件中没有以已知单位给出的 {name} 列", cell: "第 {line} 行：{name} 必须是数", time: "第 {line} 行：时间必须逐行增大",
-        large: "文件大于 20 MB", twice: "第 {line} 行：{key} 出现了两次", row: "第 {line} 行：应为“键: 值”，如 festoon init 所写",
+        large: "文件大于 20 MB", film: "这是视频；请用 festoon track 从中得到轨迹", twice: "第 {line} 行：{key} 出现了两次", row: "第 {line} 行：应为“键: 值”，如 festoon init 所写",
         columns: "第 {line} 行：应有名为 x 和 y 的列，例如：frame,t [s],x [mm],y [mm]", unit: "第 {line} 行：“{unit}”必须是 mm、cm、m 或 px",
         number: "第 {line} 行：x 和 y 必须是小于 {most} 的数", few: "轨迹至少需要三个位置", same: "轨迹的所有位置都相同",
     },
@@ -66,13 +67,14 @@ export default {
     noWebgl: "此浏览器不支持 WebGL：画面为俯视图。",
     keys: "按键：空格键播放和暂停，. 前进一步，R 重新开始，1 至 4 选择视角，5 打开课程，F 全屏。在画面中，方向键转动视角，+ 和 − 缩放。",
     viewLabel: "平板上的小球，从所选视角观看",
-    lessonName: "课程", lessonClose: "关闭课程", lessonTitle: "第 {n} 课：{title}", back: "上一步", next: "下一步",
+    waveFrequency: "波的频率",
+    lessonName: "课程", lessonClose: "关闭课程", lessonTitle: "第 {n} 步：{title}", back: "上一步", next: "下一步",
     names: {
         "bead.radius": "小球半径", "bead.mass": "小球质量", "bead.moment": "小球磁矩", "bead.material": "磁性材料",
         "bead.inertia": "转动惯量（以 m R² 计）", "bead.density": "小球密度", "bead.remanence": "小球剩磁",
         "bead.a": "磁化系数 a", "bead.b": "磁化系数 b", "magnet.shape": "磁铁类型", "magnet.half_length": "半长 l",
         "magnet.width": "宽度", "magnet.depth": "磁铁的深度", "magnet.lines": "偶极子线的条数", "magnet.b0": "磁场单位 B₀",
-        "drive.frequency": "磁铁转速", "drive.omega": "转速（无量纲）", "friction.law": "摩擦定律", "friction.gamma": "黏性速率 γ",
+        "drive.frequency": "磁铁转速", "drive.omega": "转速（无量纲）", "friction.law": "摩擦定律", "friction.gamma": "黏性摩擦速率 γ",
         "friction.mu": "干摩擦系数 μ", "friction.mu_static": "静摩擦系数", "friction.stribeck_speed": "斯特里贝克速度",
         "friction.rolling_resistance": "滚动阻力", "contact.patch": "接触面",
         "contact.radius": "接触面半径", "contact.modulus": "接触模量", "impact.restitution": "恢复系数", "model.dynamics": "方程",
@@ -90,10 +92,10 @@ export default {
         "run.until": { periods: "转完所有圈", settled: "运动重复时" },
     },
     groups: { bead: "小球", magnet: "磁铁", drive: "驱动", friction: "摩擦", contact: "接触", impact: "碰撞", model: "模型", plate: "平板", start: "起点", run: "运行" },
-    about: "说明：{name}", slider: "{name}，滑块", notGiven: "未给定", notGivenIn: "未给定，单位 {unit}",
+    about: "说明：{name}", slider: "{name}，滑块", notGiven: "未给定",
     predict: "预测", observe: "观察", explain: "解释",
     lessonStep: "第 {n} 步，共 {all} 步",
-    right: "你将看到的正是这样。", wrong: "请仔细看：它做的是另一回事。", why: "为什么？",
+    right: "你将看到的正是这样。", wrong: "请仔细看：它的运动并非如此。", why: "为什么？",
     ring: "圆环间距：10 mm",
     live: "第 {turns} 圈 · {seconds} s",
     rows: {
@@ -182,10 +184,10 @@ export default {
         },
         {
             title: "滑动与黏着",
-            question: "到目前为止，摩擦就像糖浆：滑动越快，力越大。真实的平板是干摩擦：接触点一直黏着，直到推力太大为止。小球还会与磁铁反向绕行吗？",
+            question: "到目前为止，摩擦就像糖浆：滑动越快，力越大。真实的平板是干摩擦：接触点一直黏着，直到力太大为止。小球还会与磁铁反向绕行吗？",
             answers: ["不会，干摩擦使它停下。", "会，它的接触点交替黏着和滑动。", "会，但它从不滚动，只是滑动。"],
             observe: "接触点黏着时轨迹颜色浅，滑动时颜色深。橙色箭头是摩擦力。",
-            explain: "在 37% 的时间里接触点黏着，小球像轮子一样滚动。每走一遍闭合曲线，接触点受到的推力有三次变得太大，于是它滑动，直到速度重新一致。运动的方向与以前相同，因为它来自齿轮作用，而不是来自摩擦定律。",
+            explain: "在 37% 的时间里接触点黏着，小球像轮子一样滚动。每走一遍闭合曲线，接触点受到的力有三次变得太大，于是它滑动，直到速度重新一致。运动的方向与以前相同，因为它来自齿轮作用，而不是来自摩擦定律。",
         },
     ],
 };
