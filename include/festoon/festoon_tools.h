@@ -450,6 +450,8 @@ typedef struct fst_critical {
         error;   /* half of what the runs on either side leave open, or the error of the special point */
     int special; /* the fst_special_type of the branch's point that it is; -1: of none, it is enclosed by runs */
     fst_regime below, above; /* the outcomes on either side */
+    double
+        until; /* the last run that circles against the magnet before one that does otherwise; NAN where not found */
     double parting,
         parting_error; /* up to here the bead goes with the magnet in all runs; NAN: in none, or in all */
     fst_critical_stretch *stretches; /* of all runs, in order */
