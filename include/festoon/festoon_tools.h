@@ -379,6 +379,7 @@ typedef struct fst_sweep_table {
     int refine;      /* as in the options of the last fst_sweep() */
     int64_t wanted;  /* the points that are to have a row, without refining: all, or those of a shard */
     fst_carry carry; /* as in the options of fst_sweep() */
+    int at_work;     /* another process was at work on the sweep when it was read */
 } fst_sweep_table;
 FST_API fst_status fst_sweep_read(const char *path, const char *const *keys, int count, fst_sweep_table *table,
                                   fst_error *error);
