@@ -4,18 +4,22 @@ tests: sweep/critical.c cli/critical.c
 labels: slow numbers"""
 
 import json
+import tempfile
 import unittest
 
 from sweep_tools import festoon
 
 FEW = ["--over", "drive.frequency=8.5Hz:10Hz:4", "--tolerance", "1e-3"]
 
-PARTS = [word for place, part in enumerate((("cuboid", "15 mm, 0, -6 mm", "20 mm, 15 mm, 10 mm", "1.1 T"),
-                                            ("cuboid", "-15 mm, 0, -6 mm", "20 mm, 15 mm, 10 mm", "-1.1 T"),
-                                            ("cylinder", "0, 16 mm, -6 mm", "12 mm, 8 mm", "0.3 T")))
-         for key, value in zip(("kind", "centre", "size", "remanence"),
-                               (part[0], f"[{part[1]}]", f"[{part[2]}]", f"[0, 0, {part[3]}]"))
-         for word in ("--set", f"magnet.parts[{place}].{key}={value}")]
+MAGNET = """bead: {radius: 2.5 mm, density: 7.5 g/cm^3, remanence: 1.2 T}
+magnet:
+  shape: parts
+  depth: 15 mm
+  parts:
+    - {kind: cuboid, centre: [15 mm, 0, -6 mm], size: [20 mm, 15 mm, 10 mm], remanence: [0, 0, 1.1 T]}
+    - {kind: cuboid, centre: [-15 mm, 0, -6 mm], size: [20 mm, 15 mm, 10 mm], remanence: [0, 0, -1.1 T]}
+    - {kind: cylinder, centre: [0, 16 mm, -6 mm], size: [12 mm, 8 mm], remanence: [0, 0, 0.3 T]}
+"""
 
 
 def critical(*words):
@@ -44,8 +48,11 @@ class Critical(unittest.TestCase):
 
     def test_up_to_where(self):
         """Over two blocks and a cylinder the bead circles against the magnet from 8.6 Hz to 12 Hz only."""
-        words = ("--set", "magnet.shape=parts", "--set", "magnet.depth=15mm", "--set", "bead.radius=2.5mm", "--set", "bead.density=7.5 g/cm^3",
-                 "--set", "bead.remanence=1.2 T", *PARTS, "--set", "run.periods=60", "--set", "run.discard=30", "--tolerance", "0.05",
+        file = tempfile.NamedTemporaryFile("w", suffix=".yaml")
+        self.addCleanup(file.close)
+        file.write(MAGNET)
+        file.flush()
+        words = (file.name, "--set", "run.periods=120", "--set", "run.discard=60", "--tolerance", "0.05",
                  "--over", "drive.frequency=6Hz:20Hz:8")
         status, out, _ = festoon("critical", *words)
         found = critical(*words)
