@@ -84,9 +84,8 @@ const command export_command = {
                "mean_r, std_r, mean_alpha_dot; of beads and worlds what fits) with their units, as in \"mean_r "
                "[mm]\",\n"
                "and the status of each point: done, missing, or why a run failed.  Damaged rows are named, "
-               "with status 2, and -o FILE has the others; "
-               "the\n"
-               "command of the sweep computes them again.\n",
+               "with status 2,\n"
+               "and -o FILE has the others; the command of the sweep computes them again.\n",
     .options = options,
     .most_operands = 1,
     .much_output = 1,
