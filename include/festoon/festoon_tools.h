@@ -379,6 +379,7 @@ typedef struct fst_sweep_table {
     int refine;      /* as in the options of the last fst_sweep() */
     int64_t wanted;  /* the points that are to have a row, without refining: all, or those of a shard */
     fst_carry carry; /* as in the options of fst_sweep() */
+    int at_work;     /* another process was at work on the sweep when it was read */
 } fst_sweep_table;
 FST_API fst_status fst_sweep_read(const char *path, const char *const *keys, int count, fst_sweep_table *table,
                                   fst_error *error);
@@ -450,6 +451,8 @@ typedef struct fst_critical {
         error;   /* half of what the runs on either side leave open, or the error of the special point */
     int special; /* the fst_special_type of the branch's point that it is; -1: of none, it is enclosed by runs */
     fst_regime below, above; /* the outcomes on either side */
+    double
+        until; /* the last run that circles against the magnet before one that does otherwise; NAN where not found */
     double parting,
         parting_error; /* up to here the bead goes with the magnet in all runs; NAN: in none, or in all */
     fst_critical_stretch *stretches; /* of all runs, in order */

@@ -150,7 +150,9 @@ def _about_sweep(s: Any) -> str:
     part = f" at {100 * count / s.size:.3g} % of {s.size} points" if s.refined else ""
     of = "" if s.refined or count == s.size else f" of {s.size}"
     part += " (not complete)" if of else ""
-    return f"{words}{count}{of} runs of {base.run__periods:g} turns of the magnet{part}"
+    timed = base.run__duration
+    length = f"{timed:g} s" if timed is not None else f"{base.run__periods:g} turns of the magnet"
+    return f"{words}{count}{of} run{'s' if of or count != 1 else ''} of {length}{part}"
 
 
 def _regime_marks(ax: Any, x: Any, y: Any, regimes: Any) -> None:

@@ -30,6 +30,8 @@ static fst_status read_range(const char *name, const char *text, char key[64], d
     const char *equals = strchr(text, '='), *colon = equals ? strchr(equals, ':') : NULL;
     if (!colon || equals == text || equals - text > 63 || colon - equals > 63 || strlen(colon) > 63)
         return fail(error, FST_BAD_INPUT, name, "\"%.80s\" must be KEY=LO:HI, as in drive.omega=0.2:3", text);
+    if (strchr(colon + 1, ':'))
+        return fail(error, FST_BAD_INPUT, name, "\"%.80s\" must be KEY=LO:HI: a branch takes no count", text);
     (void)snprintf(key, 64, "%.*s", (int)(equals - text), text);
     (void)snprintf(low, sizeof low, "%.*s", (int)(colon - equals - 1), equals + 1);
     (void)snprintf(high, sizeof high, "%s", colon + 1);

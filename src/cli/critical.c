@@ -25,6 +25,20 @@ static void print_with_error(FILE *out, double value, double error, const char *
     (void)fprintf(out, "%.*f +- %.2g%s", decimals, value, error, unit);
 }
 
+/* "from it on counter-rotating", and up to where, if other outcomes follow. */
+static void print_sides(FILE *out, const fst_critical *c, const char *unit)
+{
+    size_t next = 0;
+    while (next < c->stretch_count && !(c->stretches[next].from > c->until))
+        ++next;
+    (void)fprintf(out, "\n  below it the bead is %s, from it on", fst_regime_name(c->below));
+    if (next < c->stretch_count)
+        (void)fprintf(out, ", up to %.7g%s, %s; other outcomes from %.7g%s\n", c->until, unit,
+                      fst_regime_name(c->above), c->stretches[next].from, unit);
+    else
+        (void)fprintf(out, " %s\n", fst_regime_name(c->above));
+}
+
 static void print_critical(FILE *out, const fst_critical *c)
 {
     const int is_frequency = strcmp(c->key, "drive.frequency") == 0;
@@ -34,8 +48,7 @@ static void print_critical(FILE *out, const fst_critical *c)
         print_with_error(out, c->value, c->error, unit);
         if (is_frequency)
             (void)fprintf(out, ", %.2f turns a minute", 60 * c->value);
-        (void)fprintf(out, "\n  below it the bead is %s, from it on %s\n", fst_regime_name(c->below),
-                      fst_regime_name(c->above));
+        print_sides(out, c, unit);
         if (c->special >= 0)
             (void)fprintf(out, "  there %s: %s of festoon branch --kind counter\n", special_docs[c->special],
                           fst_special_name((fst_special_type)c->special));

@@ -5,8 +5,8 @@
 #define FORMAT(NAME, name, doc) {name, '\0', NULL, doc},
 static const option options[] = {
     FST_EXPORTS(FORMAT){"quantity", '\0', "KEY,...",
-                        "of CSV: only the varied parameters and these keys of festoon run, each with its unit "
-                        "(mean_r,std_r,regime)"},
+                        "of CSV: only the varied parameters and these keys of festoon run, each with its unit, "
+                        "as in mean_r,std_r,regime"},
     UNITS_OPTION,
     {"output", 'o', "FILE", "write to FILE instead of standard output"},
     {NULL, '\0', NULL, NULL},
@@ -37,11 +37,10 @@ static fst_status tell_of_missing(const char *path, fst_error *error)
     fst_sweep_table table;
     const fst_status status = fst_sweep_read(path, NULL, 0, &table, error);
     if (status == FST_OK && !table.refine && table.rows < table.wanted)
-        (void)fprintf(
-            stderr,
-            "festoon: %s: %lld of %lld points have a row, because the sweep was interrupted; the same "
-            "command goes on\n",
-            shown(path, name), (long long)table.rows, (long long)table.wanted);
+        (void)fprintf(stderr, "festoon: %s: %lld of %lld points have a row%s\n", shown(path, name),
+                      (long long)table.rows, (long long)table.wanted,
+                      table.at_work ? " so far: a sweep is at work on it"
+                                    : ", because the sweep was interrupted; the same command goes on");
     if (status == FST_OK)
         fst_sweep_table_free(&table);
     return status;
@@ -80,13 +79,13 @@ const command export_command = {
     .name = "export",
     .synopsis = "FILE.db --csv|--json|--hdf5 [-o FILE] [options]",
     .summary = "Print the rows of a sweep in the order of its points",
-    .details =
-        "With --quantity or --units the CSV has the varied parameters and the keys (regime, mean_r, std_r,\n"
-        "mean_alpha_dot unless told) with their units, as in \"mean_r [mm]\", and the status of each point: "
-        "done,\n"
-        "missing, or why a run failed.  Damaged rows are named, with status 2, and -o FILE has the others; "
-        "the\n"
-        "command of the sweep computes them again.\n",
+    .details = "With --quantity or --units the CSV has the varied parameters and the keys (with --units alone "
+               "regime,\n"
+               "mean_r, std_r, mean_alpha_dot; of beads and worlds what fits) with their units, as in \"mean_r "
+               "[mm]\",\n"
+               "and the status of each point: done, missing, or why a run failed.  Damaged rows are named, "
+               "with status 2,\n"
+               "and -o FILE has the others; the command of the sweep computes them again.\n",
     .options = options,
     .most_operands = 1,
     .much_output = 1,

@@ -31,7 +31,8 @@ static void print_merged(FILE *out, const char *path, const fst_sweep_merged *me
         (void)fprintf(out, "{\n  \"points\": %lld,\n  \"rows\": %lld,\n  \"missing\": %lld\n}\n", points, rows,
                       points - rows);
     else if (rows == points)
-        (void)fprintf(out, "%s: all %lld points\n", shown(path, name), points);
+        (void)fprintf(out, points == 1 ? "%s: %lld point\n" : "%s: all %lld points\n", shown(path, name),
+                      points);
     else
         (void)fprintf(out, "%s: %lld of %lld points\n", shown(path, name), rows, points);
 }

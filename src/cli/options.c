@@ -168,6 +168,10 @@ static fst_status read_option(const command *of, int count, char **words, int *a
         if (find_option(of, value)) /* then it is no value */
             return fail(error, FST_BAD_INPUT, "", "--%s needs a value (%s), but %s follows", row->name,
                         row->value, value);
+        if (strcmp(row->value, "KEY=VALUE") == 0 && !strchr(value, '=') && *at + 1 < count &&
+            words[*at + 1][0] == '-' && !find_option(of, words[*at + 1]))
+            return fail(error, FST_BAD_INPUT, "", "a \"=\" is missing: --%s %s=%s", row->name, value,
+                        words[*at + 1]);
     }
     return keep_option(given, row, value, error);
 }

@@ -239,16 +239,19 @@ static void print_sweep(FILE *out, const char *path, const fst_sweep_counts *p, 
     char name[SHOWN_SIZE];
     path = shown(path, name);
     if (sweep->refine > 0)
-        (void)fprintf(out, "%s: %lld points, %.3g %% of %lld", path, (long long)p->computed,
-                      100.0 * (double)p->computed / (double)p->points, (long long)p->points);
+        (void)fprintf(out, "%s: %lld point%s, %.3g %% of %lld", path, (long long)p->computed,
+                      p->computed == 1 ? "" : "s", 100.0 * (double)p->computed / (double)p->points,
+                      (long long)p->points);
     else
-        (void)fprintf(out, "%s: all %lld points", path, (long long)p->computed);
+        (void)fprintf(out, p->computed == 1 ? "%s: %lld point" : "%s: all %lld points", path,
+                      (long long)p->computed);
     if (sweep->shards > 1)
         (void)fprintf(out, " of shard %d/%d", sweep->shard, sweep->shards);
     if (p->added < p->computed)
         (void)fprintf(out, ", %lld of them new", (long long)p->added);
     if (p->failed > 0)
-        (void)fprintf(out, "; %lld runs failed, their rows say why", (long long)p->failed);
+        (void)fprintf(out, "; %lld run%s failed, %s why", (long long)p->failed, p->failed == 1 ? "" : "s",
+                      p->failed == 1 ? "its row says" : "their rows say");
     (void)fprintf(out, " (%.3g s)\nfestoon export %s --csv prints the rows", p->seconds, path);
     if (sweep->shards > 1)
         (void)fputs(", festoon merge joins the shards", out);

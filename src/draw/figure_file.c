@@ -99,12 +99,16 @@ fst_canvas fst_canvas_for(const double *size, int usual, int give)
 static fst_status check_size(const fst_canvas *canvas, fst_error *error)
 {
     enum { LEAST = 20, MOST = 1000 }; /* mm; a PNG of the greatest takes 230 MB while it is drawn */
-    for (int i = 0; i < 2; ++i)
-        if (canvas->millimetres[0] != 0.0 &&
-            !(canvas->millimetres[i] >= LEAST && canvas->millimetres[i] <= MOST))
-            return fst_fail(error, FST_BAD_INPUT, "fst_figure_options.size",
-                            "a figure is %d to %d mm wide and high, not %.4g mm", LEAST, MOST,
-                            canvas->millimetres[i]);
+    char meant[64] = "";
+    for (int i = 0; i < 2; ++i) {
+        const double length = canvas->millimetres[i], without_unit = 1e-3 * length;
+        if (canvas->millimetres[0] == 0.0 || (length >= LEAST && length <= MOST))
+            continue;
+        if (without_unit >= LEAST && without_unit <= MOST)
+            (void)snprintf(meant, sizeof meant, "; a length without a unit is in m: %gmm?", without_unit);
+        return fst_fail(error, FST_BAD_INPUT, "fst_figure_options.size",
+                        "a figure is %d to %d mm wide and high, not %.4g mm%s", LEAST, MOST, length, meant);
+    }
     return FST_OK;
 }
 

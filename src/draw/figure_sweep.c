@@ -136,7 +136,10 @@ static fst_status cut(const fst_grid *grid, const char *path, const fst_sweep_fi
                                  : read_at(grid, options->at[i], &axis, &value, error);
         if (status == FST_OK)
             status = find_value(grid, axis, value, &place, error);
-        if (status != FST_OK || fixed[axis]++ || fst_grid_axis_points(grid, axis) < 2)
+        if (status == FST_OK && fixed[axis]++)
+            status = fst_fail(error, FST_BAD_INPUT, "fst_sweep_figure.at", "%s is given twice",
+                              fst_grid_key(grid, axis));
+        if (status != FST_OK || fst_grid_axis_points(grid, axis) < 2)
             continue;
         slice->start += place * fst_grid_axis_stride(grid, axis);
         tell_value(grid, axis, place, slice->words, sizeof slice->words);

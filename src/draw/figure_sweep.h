@@ -4,14 +4,6 @@
 
 #include "draw/figure_sweep_axes.h"
 
-/* The part of a sweep that a figure shows: its varied axes, where all others have one value. */
-typedef struct fst_sweep_slice {
-    int varied;
-    fst_sweep_axis axes[FST_AXIS_LIMIT];
-    int64_t start;   /* its first point; the axes' strides lead to the others */
-    char words[192]; /* the values of others that have several, "friction.mu 0.2"; "": there are none */
-} fst_sweep_slice;
-
 /* A chart of keys over the one axis of a slice, which fst_chart_free() frees.  Plain: without the colours of regimes, to be
  * laid over others. */
 fst_status fst_sweep_curves(const fst_sweep_table *table, const fst_sweep_quantity *quantities, int count,

@@ -130,33 +130,64 @@ static void describe_points(const fst_grid *grid, char *text, size_t size)
     fst_caption(&point, shown, count, text, size);
 }
 
-void fst_sweep_about(const fst_sweep_table *table, char *about, size_t size)
+/* The points of a slice, and how many of them have a row.  Random points have no slices. */
+static int64_t count_points(const fst_sweep_table *table, const fst_sweep_slice *slice, int64_t *rows)
+{
+    int64_t strides[2] = {0, 0}, counts[2] = {1, 1};
+    *rows = table->rows;
+    if (!slice->words[0])
+        return fst_grid_points(table->grid);
+    for (int i = 0; i < slice->varied; ++i) {
+        strides[i] = fst_grid_axis_stride(table->grid, slice->axes[i].index);
+        counts[i] = slice->axes[i].count;
+    }
+    *rows = 0;
+    for (int64_t i = 0; i < counts[0] * counts[1]; ++i)
+        *rows += table->computed[slice->start + i / counts[1] * strides[0] + i % counts[1] * strides[1]];
+    return counts[0] * counts[1];
+}
+
+/* " of 300 turns of the magnet", as long as all runs are. */
+static void tell_length(const fst_grid *grid, char *about, size_t size)
+{
+    const fst_params *base = fst_grid_base(grid);
+    const int timed = !isnan(base->run_duration);
+    if (varies(grid, "run.duration") || varies(grid, "run.periods"))
+        return;
+    (void)snprintf(about + strlen(about), size - strlen(about), " of %s%g %s",
+                   base->run_until == FST_UNTIL_SETTLED ? "at most " : "",
+                   timed ? base->run_duration : base->run_periods, timed ? "s" : "turns of the magnet");
+}
+
+void fst_sweep_about(const fst_sweep_table *table, const fst_sweep_slice *slice, char *about, size_t size)
 {
     const fst_grid *grid = table->grid;
-    const fst_params *base = fst_grid_base(grid);
     const size_t used = strlen(about);
     char what[200] = "";
     describe_points(grid, what, sizeof what);
     (void)snprintf(about + used, size - used, "%s%s%s", used ? "; " : "", what, what[0] ? ", " : "");
-    const int64_t points = fst_grid_points(grid);
-    const int whole = table->refine || table->rows == points;
-    (void)snprintf(about + strlen(about), size - strlen(about), "%lld", (long long)table->rows);
+    int64_t rows;
+    const int64_t points = count_points(table, slice, &rows);
+    const int whole = table->refine || rows == points;
+    const char *plural = rows == 1 && whole ? "" : "s";
+    (void)snprintf(about + strlen(about), size - strlen(about), "%lld", (long long)rows);
     if (!whole)
         (void)snprintf(about + strlen(about), size - strlen(about), " of %lld", (long long)points);
-    if (fst_grid_row_kind(grid) == FST_ROWS_OF_LEVITATION)
-        (void)snprintf(about + strlen(about), size - strlen(about), " points%s",
-                       whole ? "" : " (not complete)");
-    else
-        (void)snprintf(about + strlen(about), size - strlen(about), " runs of %s%g turns of the magnet%s",
-                       base->run_until == FST_UNTIL_SETTLED ? "at most " : "", fst_run_periods(base),
-                       whole ? "" : " (not complete)");
+    if (fst_grid_row_kind(grid) == FST_ROWS_OF_LEVITATION) {
+        (void)snprintf(about + strlen(about), size - strlen(about), " point%s", plural);
+    } else {
+        (void)snprintf(about + strlen(about), size - strlen(about), " run%s", plural);
+        tell_length(grid, about, size);
+    }
+    if (!whole)
+        (void)snprintf(about + strlen(about), size - strlen(about), " (not complete)");
     if (table->carry != FST_CARRY_NO)
         (void)snprintf(about + strlen(about), size - strlen(about),
                        ", each begun where its neighbour ended, %s",
                        table->carry == FST_CARRY_UP ? "upwards" : "downwards");
     if (table->refine)
         (void)snprintf(about + strlen(about), size - strlen(about), " at %.3g %% of %lld points",
-                       100.0 * (double)table->rows / (double)points, (long long)points);
+                       100.0 * (double)rows / (double)points, (long long)points);
 }
 
 /* Which of the choices that occur this one is. */

@@ -14,8 +14,16 @@ fst_shown_units fst_sweep_units(const fst_grid *grid);
 /* A label without its unit, "drive frequency". */
 void fst_sweep_words(const char *label, char words[128]);
 
-/* Add to `about` what is the same at all points, and how many were computed. */
-void fst_sweep_about(const fst_sweep_table *table, char *about, size_t size);
+/* The part of a sweep that a figure shows: its varied axes, where all others have one value. */
+typedef struct fst_sweep_slice {
+    int varied;
+    fst_sweep_axis axes[FST_AXIS_LIMIT];
+    int64_t start;   /* its first point; the axes' strides lead to the others */
+    char words[192]; /* the values of others that have several, "friction.mu 0.2"; "": there are none */
+} fst_sweep_slice;
+
+/* Add to `about` what is the same at all points, and how many of the slice were computed. */
+void fst_sweep_about(const fst_sweep_table *table, const fst_sweep_slice *slice, char *about, size_t size);
 
 /* The value of an axis at a point, in the figure's unit. */
 double fst_sweep_axis_value(const fst_grid *grid, const fst_sweep_axis *axis, int64_t point);

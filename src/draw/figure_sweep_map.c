@@ -235,7 +235,7 @@ static fst_legend make_legend(const map *m, const fst_sweep_quantity *quantity, 
                    words[2]);
     if (legend.title[0] >= 'a' && legend.title[0] <= 'z')
         legend.title[0] = (char)(legend.title[0] - 'a' + 'A');
-    fst_sweep_about(m->table, legend.about, sizeof legend.about);
+    fst_sweep_about(m->table, m->slice, legend.about, sizeof legend.about);
     size_t used = strlen(legend.about);
     if (m->slice->words[0])
         (void)snprintf(legend.about + used, sizeof legend.about - used, "; at %s", m->slice->words);

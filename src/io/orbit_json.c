@@ -307,6 +307,7 @@ char *fst_critical_json(const fst_params *params, const fst_critical *c)
     fst_json_text(&json, "special", c->special >= 0 ? fst_special_name((fst_special_type)c->special) : NULL);
     fst_json_text(&json, "below", c->found ? fst_regime_name(c->below) : NULL);
     fst_json_text(&json, "above", c->found ? fst_regime_name(c->above) : NULL);
+    fst_json_real(&json, "until", c->until);
     fst_json_real(&json, "parting", c->parting);
     fst_json_real(&json, "parting_error", c->parting_error);
     fst_json_integer(&json, "runs", c->runs);

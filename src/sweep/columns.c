@@ -387,3 +387,14 @@ double fst_sweep_number(sqlite3_stmt *rows, int column)
             return i;
     return NAN;
 }
+
+void fst_sweep_write_quoted(FILE *out, const char *tame)
+{
+    (void)fputc('"', out);
+    for (const char *c = tame; *c; ++c) {
+        if (*c == '"')
+            (void)fputc('"', out);
+        (void)fputc(*c, out);
+    }
+    (void)fputc('"', out);
+}

@@ -32,6 +32,9 @@ fst_status fst_sweep_find(sqlite3_stmt *row, const char *key, const char *where,
 /* A value of a row that was read as a number, names of lists by their index; NAN: undefined. */
 double fst_sweep_number(sqlite3_stmt *row, int column);
 
+/* Write a text without control characters as a field of CSV. */
+void fst_sweep_write_quoted(FILE *out, const char *tame);
+
 /* Whether rows have this key.  FST_BAD_INPUT: no; the sentence names the nearest one. */
 fst_status fst_sweep_check_key(const char *key, const char *where, fst_error *error);
 

@@ -194,6 +194,18 @@ static fst_status enclose(search *s, border (*find)(const search *), double tole
     return FST_OK;
 }
 
+/* The last run that circles against the magnet before one that does otherwise. */
+static double find_end(const search *s, size_t from)
+{
+    double end = s->all[from].value;
+    for (size_t i = from; i < s->count; ++i)
+        if (counter_rotates(s->all[i].regime))
+            end = s->all[i].value;
+        else if (s->all[i].regime != FST_REGIME_UNDECIDED)
+            break;
+    return end;
+}
+
 /* The middle of a border and half its width.  Where outcomes alternate, runs of the one side that were met between this border
  * and `far`, where the other side began in the first runs, belong to the error. */
 static void put_border(const search *s, const border *b, int (*alike)(fst_regime), double far, double *value,
@@ -299,6 +311,7 @@ static fst_status find_borders(search *s, double tolerance, fst_critical *c, fst
     if (c->found) {
         c->above = s->all[critical.high].regime;
         c->below = s->all[critical.low].regime;
+        c->until = find_end(s, critical.high);
         put_border(s, &critical, counter_rotates, fails, &c->value, &c->error);
     }
     if (c->found && s->params->friction_law != FST_FRICTION_COULOMB)
@@ -338,7 +351,8 @@ fst_status fst_critical_find(const fst_params *params, const fst_critical_option
 {
     fst_grid *grid = NULL;
     search s = {.params = params, .part = {options->progress, 0, 0, NULL}};
-    *critical = (fst_critical){.special = -1, .value = NAN, .error = NAN, .parting = NAN, .parting_error = NAN};
+    *critical = (fst_critical){
+        .special = -1, .value = NAN, .error = NAN, .until = NAN, .parting = NAN, .parting_error = NAN};
     if (!(options->tolerance >= 1e-9 && options->tolerance < 0.1))
         return fst_fail(error, FST_BAD_INPUT, "fst_critical_options.tolerance",
                         "tolerance = %g is out of range: it must be 1e-9 to 0.1", options->tolerance);

@@ -52,17 +52,6 @@ static fst_status fail_memory(const exporter *e, fst_error *error)
     return fst_fail(error, FST_NO_MEMORY, e->path, "out of memory");
 }
 
-static void write_quoted(FILE *out, const char *tame)
-{
-    (void)fputc('"', out);
-    for (const char *c = tame; *c; ++c) {
-        if (*c == '"')
-            (void)fputc('"', out);
-        (void)fputc(*c, out);
-    }
-    (void)fputc('"', out);
-}
-
 static fst_status csv_head(exporter *e, fst_error *error)
 {
     for (int i = 0; i < e->columns; ++i) {
@@ -94,7 +83,7 @@ static fst_status csv_row(exporter *e, fst_error *error)
             text = tame_text(e->row, i);
             if (!text)
                 return fail_memory(e, error);
-            write_quoted(e->stream, text);
+            fst_sweep_write_quoted(e->stream, text);
             free(text);
             break;
         default: /* an undefined value stays empty */

@@ -23,7 +23,7 @@ typedef struct table_writer {
     fst_sweep_file file;
     int is_refined;        /* points without a row are left out; else their results stay empty */
     int places[MOST_KEYS]; /* of the keys among the columns of the database */
-    int status;            /* the place of the status there */
+    int status, reason;    /* the places of these there */
     FILE *stream;
     const fst_progress *progress;
 } table_writer;
@@ -112,14 +112,23 @@ static void write_result(const table_writer *w, const char *key, double value, c
     (void)fputs(text, w->stream);
 }
 
-/* "done", "missing" where there is no row, or why the run failed: one of the texts of statuses. */
-static const char *status_of(sqlite3_stmt *row, int place)
+/* "done", "missing" where there is no row, or how and why the run failed: one of the texts of statuses, and the reason. */
+static void write_status(const table_writer *w, sqlite3_stmt *row)
 {
-    const char *text = row ? (const char *)sqlite3_column_text(row, place) : "missing";
-    for (int i = FST_BAD_INPUT; text && row && i < FST_STATUS_COUNT; ++i)
+    char why[sizeof((fst_error *)NULL)->sentence + 64];
+    const char *text = row ? (const char *)sqlite3_column_text(row, w->status) : NULL, *failed = NULL;
+    for (int i = FST_BAD_INPUT; text && i < FST_STATUS_COUNT; ++i)
         if (strcmp(text, fst_status_text((fst_status)i)) == 0)
-            return fst_status_text((fst_status)i);
-    return row ? "done" : text;
+            failed = fst_status_text((fst_status)i);
+    const char *reason = failed ? (const char *)sqlite3_column_text(row, w->reason) : NULL;
+    if (reason && *reason) {
+        (void)snprintf(why, sizeof why, "%s: %s", failed, reason);
+        fst_text_tame(why);
+        fst_sweep_write_quoted(w->stream, why);
+        (void)fputc('\n', w->stream);
+    } else {
+        (void)fprintf(w->stream, "%s\n", failed ? failed : row ? "done" : "missing");
+    }
 }
 
 /* One line; `row` is NULL for a point without a row. */
@@ -136,7 +145,7 @@ static fst_status write_point(const table_writer *w, int64_t point, sqlite3_stmt
         write_result(w, w->keys[i], row ? fst_sweep_number(row, w->places[i]) : NAN, &scales);
         (void)fputc(',', w->stream);
     }
-    (void)fprintf(w->stream, "%s\n", status_of(row, w->status));
+    write_status(w, row);
     return FST_OK;
 }
 
@@ -162,6 +171,7 @@ static fst_status find_places(table_writer *w, sqlite3_stmt *row, fst_error *err
     for (int i = 0; i < w->count && found == FST_OK; ++i)
         found = fst_sweep_find(row, w->keys[i], w->file.name, &w->places[i], error);
     w->status = fst_sweep_place(row, "status");
+    w->reason = fst_sweep_place(row, "reason");
     return found;
 }
 
@@ -213,12 +223,13 @@ static fst_status write_file(table_writer *w, const char *out, fst_error *error)
 fst_status fst_sweep_export_keys(const char *path, const char *const *keys, int count, fst_shown_units units,
                                  const char *out, FILE *stream, const fst_progress *progress, fst_error *error)
 {
-    static const char *const usual[] = {"regime", "mean_r", "std_r", "mean_alpha_dot"};
+    enum { USUAL = 4 };
+    static const char *const usual[][USUAL] = {
+        [FST_ROWS_OF_RUNS] = {"regime", "mean_r", "std_r", "mean_alpha_dot"},
+        [FST_ROWS_OF_BEADS] = {"outcome", "groups", "mean_r", "centre_rate"},
+        [FST_ROWS_OF_WORLDS] = {"regime", "mean_r", "mean_alpha_dot", "mean_velocity"},
+        [FST_ROWS_OF_LEVITATION] = {"below", "below_height_mm", "above", "above_height_mm"}};
     table_writer w = {.keys = keys, .count = count, .units = units, .stream = stream, .progress = progress};
-    if (count == 0) {
-        w.keys = usual;
-        w.count = (int)(sizeof usual / sizeof *usual);
-    }
     fst_refining refining;
     fst_status status = FST_OK;
     for (int i = 0; i < w.count && status == FST_OK; ++i)
@@ -229,6 +240,10 @@ fst_status fst_sweep_export_keys(const char *path, const char *const *keys, int 
     if (status == FST_OK)
         status = fst_refining_read(&w.file.lines, path, &refining, error);
     if (status == FST_OK) {
+        if (count == 0) {
+            w.keys = usual[fst_grid_row_kind(w.file.grid)];
+            w.count = USUAL;
+        }
         w.is_refined = refining.levels > 0;
         status = out ? write_file(&w, out, error) : write_rows(&w, error);
     }

@@ -95,7 +95,8 @@ static fst_status look_beside(fst_sweep_file *file, int descriptor, int locked, 
 {
     char log[FST_LOG_NAME_SIZE];
     int reason;
-    if (!locked && fst_lock_is_taken(descriptor)) {
+    file->at_work = !locked && fst_lock_is_taken(descriptor);
+    if (file->at_work) {
         file->log = FST_LOG_OWN;
         return FST_OK;
     }

@@ -20,6 +20,7 @@ typedef struct fst_sweep_file {
     fst_log_state log;
     char finding[160]; /* what is wrong with the structure of the database; "": nothing */
     int opened;        /* all steps went well */
+    int at_work;       /* another process had its lock when it was opened */
     int is_left;       /* a log is left as it is when the file is closed */
 } fst_sweep_file;
 

@@ -76,6 +76,7 @@ fst_status fst_sweep_read(const char *path, const char *const *keys, int count, 
         table->refine = refining.levels;
         table->wanted = fst_sweep_point_count(&file.identity);
         table->carry = file.identity.carry;
+        table->at_work = file.at_work;
         table->grid = file.grid;
         status = read_values(&file, keys, count, table, error);
         file.grid = status == FST_OK ? NULL : file.grid;

@@ -112,6 +112,7 @@ class BadInput(unittest.TestCase):
                 (("--kind", "countr", "--over", "drive.omega=0.2:0.3"), "the nearest is counter"),
                 (counter, "say over which parameter"),
                 ((*counter, "--over", "drive.omega=0.2"), "must be KEY=LO:HI"),
+                ((*counter, "--over", "drive.omega=0.2:2:5"), "takes no count"),
                 ((*counter, "--over", "drive.omgea=0.2:0.3"), "the nearest is drive.omega"),
                 ((*counter, "--over", "model.dynamics=0:1"), "no parameter with real values"),
                 ((*counter, "--over", "drive.omega=0.3:0.2"), "must rise"),

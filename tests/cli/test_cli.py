@@ -108,6 +108,7 @@ class Usage(Case):
         self.bad(["run", "--jsn"], "--jsn", "nearest is --json")
         self.bad(["run", "--oputput=x"], "nearest is --output")
         self.bad(["run", "-x"], "unknown option -x")
+        self.bad(["run", "--set", "bead.radius", "-2mm"], 'a "=" is missing: --set bead.radius=-2mm')
         self.bad(["run", "a.yaml", "b.yaml"], "unexpected argument")
         self.bad(["schema", "x"], "unexpected argument")
         self.bad(["run", "--json", "--json"], "given twice")

@@ -4,11 +4,22 @@ tests: sweep/critical.c cli/critical.c
 labels: slow numbers"""
 
 import json
+import tempfile
 import unittest
 
 from sweep_tools import festoon
 
 FEW = ["--over", "drive.frequency=8.5Hz:10Hz:4", "--tolerance", "1e-3"]
+
+MAGNET = """bead: {radius: 2.5 mm, density: 7.5 g/cm^3, remanence: 1.2 T}
+magnet:
+  shape: parts
+  depth: 15 mm
+  parts:
+    - {kind: cuboid, centre: [15 mm, 0, -6 mm], size: [20 mm, 15 mm, 10 mm], remanence: [0, 0, 1.1 T]}
+    - {kind: cuboid, centre: [-15 mm, 0, -6 mm], size: [20 mm, 15 mm, 10 mm], remanence: [0, 0, -1.1 T]}
+    - {kind: cylinder, centre: [0, 16 mm, -6 mm], size: [12 mm, 8 mm], remanence: [0, 0, 0.3 T]}
+"""
 
 
 def critical(*words):
@@ -26,12 +37,30 @@ class Critical(unittest.TestCase):
         self.assertLess(abs(found["value"] - crossing), found["error"])
         self.assertLess(found["error"], 1e-8)
         self.assertEqual((found["parting"], found["parting_error"]), (found["value"], found["error"]))
+        self.assertEqual(found["until"], found["stretches"][-1]["to"])
+        self.assertIn("from it on counter-rotating\n", festoon("critical", *FEW)[1])
         below, above = found["stretches"]  # the runs alone enclose it as tightly as asked
         self.assertTrue(below["to"] < crossing < above["from"] and above["from"] - below["to"] < 1e-3 * crossing)
         self.assertEqual(found["runs"], below["runs"] + above["runs"])
         scaled = critical("--set", "drive.omega=0.3", "--over", "drive.omega=0.17:0.2:4", "--tolerance", "0.05")
         gamma = scaled["scene"]["friction.gamma"]
         self.assertLess(abs(scaled["value"] * gamma / (2 * 3.141592653589793) - crossing), 1e-8)
+
+    def test_up_to_where(self):
+        """Over two blocks and a cylinder the bead circles against the magnet from 8.6 Hz to 12 Hz only."""
+        file = tempfile.NamedTemporaryFile("w", suffix=".yaml")
+        self.addCleanup(file.close)
+        file.write(MAGNET)
+        file.flush()
+        words = (file.name, "--set", "run.periods=120", "--set", "run.discard=60", "--tolerance", "0.05",
+                 "--over", "drive.frequency=6Hz:20Hz:8")
+        status, out, _ = festoon("critical", *words)
+        found = critical(*words)
+        last = [i for i, row in enumerate(found["stretches"]) if row["regime"] == "counter-rotating"][0]
+        until, others = found["stretches"][last]["to"], found["stretches"][last + 1]["from"]
+        self.assertEqual((status, found["until"]), (0, until))
+        self.assertLess(until, found["stretches"][-1]["to"])
+        self.assertIn(f"from it on, up to {until:g} Hz, counter-rotating; other outcomes from {others:g} Hz\n", out)
 
     def test_none(self):
         for words, said in ((["--over", "drive.frequency=10Hz:12Hz:3"], "at the lowest speed already"),

@@ -166,6 +166,7 @@ class Looks(unittest.TestCase):
                 status, _, messages = run("plot", FOLDER / "usual.h5", "--size", size, "-o", FOLDER / "no.svg")
                 self.assertEqual(status, 2, messages)
                 self.assertIn("--size", messages)
+                self.assertEqual("86mm?" in messages, size == "86", messages)
         self.assertEqual(list(FOLDER.glob("no.*")), [])
 
     def test_carried_sweeps_say_so(self):

@@ -282,6 +282,7 @@ class Slices(Figures):
             wanted = {(float(row["drive.frequency"]), float(row["model.kappa"])): 23 * float(row["mean_r"]) for row in there}
             script, cells = self.cells("t.db", "--quantity", "mean_r", "--only", f"bead.radius={radius}mm")
             self.assertIn(f"at bead.radius {radius:g} mm", words(script))
+            self.assertRegex(words(script), r"\b8 runs of \d+ turns of the magnet")
             self.assertEqual(len(cells), 8)
             for cell in cells:
                 self.assertAlmostEqual(cell[6], wanted[round(cell[1], 6), round(cell[0], 6)], 4)
@@ -301,6 +302,12 @@ class Slices(Figures):
         self.sweep("n.db", "model.kappa=1:2:9", "drive.frequency=9Hz:12Hz:9")
         self.assertIn("too many", self.refused("plot", self.path("n.db"), "--kind", "curves", "-o", self.path("f.svg")))
 
+    def test_how_long_runs_are(self):
+        for settings, told in ((("run.periods=6", "run.discard=2"), "4 runs of 6 turns of the magnet"), (("run.duration=0.25s",), "4 runs of 0.25 s")):
+            name = self.path(f"{len(settings)}.db")
+            self.good("sweep", *[w for text in settings for w in ("--set", text)], "--over", "drive.frequency=9Hz:12Hz:4", "-o", name)
+            self.assertIn(told, words(self.plot(f"{len(settings)}.db", "--quantity", "mean_r")[0]))
+
     def test_values_that_are_not_there(self):
         self.sweep("t.db", "model.kappa=1,1.5", "friction.law=viscous,rolling", "drive.frequency=9,10")
         plot = ("plot", self.path("t.db"), "-o", self.path("no.svg"), "--only")
@@ -309,6 +316,7 @@ class Slices(Figures):
                          ("model.kapa=1", "the nearest is model.kappa"), ("start.r=0.95", "does not vary"),
                          ("model.kappa", "not KEY=VALUE"), ("model.kappa=x", "model.kappa")):
             self.assertIn(told, self.refused(*plot, at), at)
+        self.assertIn("model.kappa is given twice", self.refused(*plot, "model.kappa=1", "--only", "model.kappa=1.5"))
         self.assertFalse(os.path.exists(self.path("no.svg")))
         script, _ = self.plot("t.db", "--only", "friction.law=rolling")
         self.assertIn("at friction.law rolling", words(script))

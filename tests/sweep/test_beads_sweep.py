@@ -73,6 +73,8 @@ class Sweeps(Case):
         cells = lines[2].split(",")
         self.assertEqual(cells[:3] + cells[-1:], ["183", "apart", "single", "done"])
         self.assertAlmostEqual(float(cells[3]), 21.3, 1)
+        self.assertEqual(self.good("export", name, "--csv", "--units", "lab").splitlines()[0],
+                         "beads[1].start.phi [deg],outcome,groups,mean_r [mm],centre_rate [Hz],status")
         self.assertIn("have no regime", self.refused("export", name, "--csv", "--quantity", "regime"))
         self.good("export", name, "--hdf5", "-o", self.path("s.h5"))
         single = self.path("one.db")

@@ -3,6 +3,7 @@
 tests: sweep/export_keys.c cli/export.c"""
 
 import csv
+import fcntl
 import io
 import itertools
 import json
@@ -10,6 +11,7 @@ import math
 import os
 import re
 import sqlite3
+import struct
 import unittest
 
 from sweep_tools import Case, SHORT, change, content_of, festoon
@@ -77,7 +79,11 @@ class ExportKeys(Case):
         status, out, err = festoon("export", path, "--csv", "--quantity", "mean_r")
         head, *rows = csv.reader(io.StringIO(out))
         self.assertEqual((status, head), (0, ["drive.frequency [Hz]", "mean_r [l]", "status"]))
-        self.assertIn("3 of 8 points have a row", err)
+        self.assertIn("3 of 8 points have a row, because the sweep was interrupted", err)
+        with open(path, "r+b") as file:  # the lock of a sweep at work, sweep/lock.c
+            fcntl.fcntl(file, fcntl.F_OFD_SETLK, struct.pack("hhqqi4x", fcntl.F_WRLCK, os.SEEK_SET, 1 << 48, 1, 0))
+            self.assertIn("3 of 8 points have a row so far: a sweep is at work on it\n",
+                          festoon("export", path, "--csv", "--quantity", "mean_r")[2])
         self.assertEqual([row[0] for row in rows], [str(at) for at in range(9, 17)])
         self.assertEqual([row[2] for row in rows], ["missing" if point in (0, 3, 4, 6, 7) else "done" for point in range(8)])
         self.assertEqual([row[1] != "" for row in rows], [point not in (0, 3, 4, 6, 7) for point in range(8)])
@@ -88,9 +94,15 @@ class ExportKeys(Case):
 
     def test_failed_runs(self):
         """Their status is why they failed, and the run is known to be there."""
-        path, _ = self.sweep("start.r=0.95,2.5e-1", settings=("--set", "bead.radius=5.75mm"))
+        path, known = self.sweep("start.r=0.95,2.5e-1", settings=("--set", "bead.radius=5.75mm"))
         _, rows = self.table(path, "--csv", "--quantity", "mean_r")
-        self.assertEqual([(row[2], row[1] == "") for row in rows], [("done", False), ("bad input", True)])
+        self.assertEqual([(row[2], row[1] == "") for row in rows], [("done", False), (f"bad input: {known[1]['reason']}", True)])
+        self.assertGreater(len(known[1]["reason"]), 20)
+        change(path, ("UPDATE rows SET reason = ? WHERE point = 1", ('a "wall",\x1b[1m\n',)))
+        text = self.good("export", path, "--csv", "--quantity", "mean_r")
+        self.assertIn(',,"bad input: a ""wall"",', text)
+        self.assertNotIn("\x1b", text)
+        self.assertEqual(text.count("\n"), 3)
 
     def test_every_result_read_back(self):
         """A number in the unit of the laboratory that stands in its head, read back, is the number."""

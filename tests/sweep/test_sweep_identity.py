@@ -87,7 +87,8 @@ class Identity(Case):
                  "start.r=0.10869565217391304,0.9,1", "-o"]
         told = json.loads(self.good(*words, self.path("a.db"), "--json"))
         self.assertEqual((told["points"], told["rows"], told["added"], told["failed"]), (3, 3, 3, 1))
-        self.assertIn("1 runs failed", self.good(*words, self.path("b.db")))
+        self.assertIn("1 run failed, its row says why", self.good(*words, self.path("b.db")))
+        self.assertIn("c.db: 1 point (", self.good("sweep", *SHORT, "--over", "start.r=0.9", "-o", self.path("c.db")))
 
     def test_what_changes_the_units_carries_no_state(self):
         """A carried state is in units of l and 1/gamma, and means another motion if these change along the chain."""

@@ -58,6 +58,8 @@ class Sweeps(Case):
         lines = self.good("export", name, "--csv", "--quantity", "regime,frame,mean_r", "--units", "lab").splitlines()
         self.assertEqual(lines[0], "drive.frequency [Hz],regime,frame,mean_r [mm],status")
         self.assertEqual(lines[1].split(",")[2::2], ["turning", "done"])
+        self.assertRegex(self.good("export", name, "--csv", "--units", "lab").splitlines()[0],
+                         r"regime,mean_r \[mm\],mean_alpha_dot \[Hz\],mean_velocity \[mm/s\],status")
         self.assertIn("of a bead in a world, have no std_r", self.refused("export", name, "--csv", "--quantity", "std_r"))
         self.good("export", name, "--hdf5", "-o", self.path("s.h5"))
         self.good("plot", name, "-o", self.path("s.svg"))
@@ -94,6 +96,7 @@ class Sweeps(Case):
                 self.assertIn(word, text)
         self.assertIn("tells of levitation", self.refused(*words, "-o", name))
         self.assertIn("36 points, 0 of them new", self.good(*words, "--levitation", "-o", name))
+        self.assertIn(",below,below_height_mm,above,above_height_mm,status", self.good("export", name, "--csv", "--units", "lab").splitlines()[0])
         self.assertIn("places where a bead floats, have no mean_r", self.refused("export", name, "--csv", "--quantity", "mean_r"))
 
     def test_hysteresis_of_the_lock(self):
