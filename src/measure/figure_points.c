@@ -1,7 +1,7 @@
 /* figure_points.c - measured points over the curves of a sweep or of a branch, with chi^2.
  *
- * A curve is made of straight pieces between neighbouring rows of a sweep with the same regime, or between
- * neighbouring points of a branch.  What was measured is compared with stable states alone: no bead stays on
+ * A curve is made of straight pieces between neighbouring rows of a sweep with the same regime, or along the
+ * smooth curve of a branch, whose points are few.  What was measured is compared with stable states alone: no bead stays on
  * others.
  */
 #include <festoon/festoon_tools.h>
@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "draw/caption.h"
 #include "draw/charts_over.h"
+#include "draw/figure_branch.h"
 #include "draw/legend.h"
 
 /* A straight piece of a curve, of one quantity, in Hz and SI. */
@@ -143,13 +144,45 @@ static fst_status take_sweep(const char *path, pieces *p, fst_error *error)
     return status;
 }
 
+static const struct {
+    fst_measured what;
+    const char *observable;
+} of_branch[] = {{FST_MEASURED_MEAN_R, "mean_r"}, {FST_MEASURED_BEAD_FREQUENCY, "mean_alpha_dot"}};
+
+enum { CURVES_OF_BRANCH = 2 * sizeof of_branch / sizeof *of_branch }; /* stable and not */
+
+static fst_status take_curves(const fst_branch *branch, double hertz, pieces *p, fst_error *error)
+{
+    fst_columns curves[CURVES_OF_BRANCH];
+    fst_chart *owner = fst_chart_new();
+    size_t room = 0;
+    int good = owner != NULL;
+    for (int i = 0; i < CURVES_OF_BRANCH && good; ++i) {
+        good = fst_branch_curve(owner, branch, of_branch[i / 2].observable, i % 2 == 0, &curves[i]);
+        room += good ? curves[i].count : 0;
+    }
+    const fst_status status = make_room(p, room, error);
+    for (int i = 0; i < CURVES_OF_BRANCH && good && status == FST_OK; ++i) {
+        const int quantity = of_branch[i / 2].what;
+        const double factor =
+            quantity == FST_MEASURED_MEAN_R ? branch->half_length : branch->gamma / FST_TWO_PI;
+        for (size_t k = 0; k + 1 < curves[i].count; ++k) {
+            const double *x = &curves[i].x[k], *y = &curves[i].y[k];
+            add_piece(p, quantity, (double[]){hertz * x[0], hertz * x[1]}, factor * y[0], factor * y[1],
+                      i % 2 == 0);
+        }
+    }
+    fst_chart_free(owner);
+    return good || status != FST_OK ? status : fst_fail(error, FST_NO_MEMORY, "", "no memory for curves");
+}
+
 static fst_status take_branch(const char *path, pieces *p, fst_error *error)
 {
     fst_branch branch;
     fst_status status = fst_branch_read(path, &branch, error);
     if (status != FST_OK)
         return status;
-    const double hertz = to_hertz(branch.key, branch.gamma), rate = branch.gamma / FST_TWO_PI;
+    const double hertz = to_hertz(branch.key, branch.gamma);
     if (hertz == 0.0 || branch.second_key[0])
         status = no_drive(path, branch.second_key[0] ? branch.second_key : branch.key, error);
     else if (isnan(branch.gamma) || isnan(branch.half_length))
@@ -157,19 +190,7 @@ static fst_status take_branch(const char *path, pieces *p, fst_error *error)
                           "this branch does not say by which length and rate it is scaled: "
                           "follow it again");
     if (status == FST_OK)
-        status = make_room(p, branch.point_count, error);
-    for (size_t i = 0; i + 1 < branch.point_count && status == FST_OK; ++i) {
-        const fst_branch_point *a = &branch.points[i], *b = a + 1;
-        if (a->branch != b->branch)
-            continue;
-        const double x[2] = {hertz * a->value, hertz * b->value};
-        add_piece(p, FST_MEASURED_MEAN_R, x, branch.half_length * a->mean_r, branch.half_length * b->mean_r,
-                  a->stable && b->stable);
-        /* Where an orbit passes the axis the bead's frequency jumps by the drive's. */
-        if (fabs(b->mean_alpha_dot - a->mean_alpha_dot) * rate < 0.5 * fmin(x[0], x[1]))
-            add_piece(p, FST_MEASURED_BEAD_FREQUENCY, x, rate * a->mean_alpha_dot, rate * b->mean_alpha_dot,
-                      a->stable && b->stable);
-    }
+        status = take_curves(&branch, hertz, p, error);
     p->length = branch.half_length;
     p->gamma = branch.gamma;
     p->scene = branch.scene;
@@ -180,6 +201,11 @@ static fst_status take_branch(const char *path, pieces *p, fst_error *error)
 
 /* ---------------------------------------------------------------- chi^2 */
 
+static int covers(const piece *here, double x)
+{
+    return x >= fmin(here->x[0], here->x[1]) && x <= fmax(here->x[0], here->x[1]) && here->x[0] != here->x[1];
+}
+
 /* The stable piece at a frequency that is nearest to a value; NULL: there is none. */
 static const piece *nearest_piece(const pieces *p, int quantity, double x, double value)
 {
@@ -187,8 +213,7 @@ static const piece *nearest_piece(const pieces *p, int quantity, double x, doubl
     double nearest = INFINITY;
     for (size_t i = 0; i < p->count[quantity]; ++i) {
         const piece *here = &p->list[quantity][i];
-        if (!here->stable || x < fmin(here->x[0], here->x[1]) || x > fmax(here->x[0], here->x[1]) ||
-            here->x[0] == here->x[1])
+        if (!here->stable || !covers(here, x))
             continue;
         const double y = here->y[0] + (x - here->x[0]) / (here->x[1] - here->x[0]) * (here->y[1] - here->y[0]);
         if (fabs(y - value) < nearest) {
@@ -220,6 +245,31 @@ static double part_of_chi2(const piece *at, const fst_point *point, int quantity
     return off * off / variance;
 }
 
+/* Say which measured number has no part in chi^2, and why. */
+static void tell_left_out(const pieces *p, const fst_point *point, int quantity, fst_points_fit *fit)
+{
+    const size_t used = strlen(fit->left_out), size = sizeof fit->left_out - used;
+    const double x = point->frequency;
+    double low = INFINITY, high = -INFINITY;
+    int unstable = 0;
+    for (size_t i = 0; i < p->count[quantity]; ++i) {
+        const piece *here = &p->list[quantity][i];
+        low = fmin(low, fmin(here->x[0], here->x[1]));
+        high = fmax(high, fmax(here->x[0], here->x[1]));
+        unstable = unstable || covers(here, x);
+    }
+    char why[96] = "the curve has a gap there";
+    if (low > high)
+        (void)snprintf(why, sizeof why, "the file has no curve of it");
+    else if (unstable)
+        (void)snprintf(why, sizeof why, "all states there are unstable");
+    else if (x < low || x > high)
+        (void)snprintf(why, sizeof why, "the curve reaches from %.6g Hz to %.6g Hz", low, high);
+    if (size > 192)
+        (void)snprintf(fit->left_out + used, size, "line %d (%.6g Hz), %s: %s\n", point->line, x,
+                       fst_measured_name((fst_measured)quantity), why);
+}
+
 static void add_chi2(const pieces *p, const fst_points *points, int quantity, scaled *by_scale,
                      fst_points_fit *fit)
 {
@@ -232,6 +282,8 @@ static void add_chi2(const pieces *p, const fst_points *points, int quantity, sc
         if (at) {
             ++fit->counted;
             fit->chi2 += part_of_chi2(at, point, quantity, by_scale);
+        } else {
+            tell_left_out(p, point, quantity, fit);
         }
     }
 }
@@ -326,12 +378,19 @@ static int put_model(drawing *d, int m, int quantity, int stable, int *named, fs
     const size_t room = 3 * p->count[quantity] + 1;
     double *x = fst_chart_keep(d->chart, 2 * room * sizeof *x), *y = x + room;
     size_t count = 0;
+    const piece *before = NULL;
     for (size_t i = 0; x && i < p->count[quantity]; ++i) {
         const piece *here = &p->list[quantity][i];
-        for (int end = 0; end < 3 && here->stable == stable; ++end, ++count) { /* both ends, and a gap */
-            x[count] = end < 2 ? d->frequency * here->x[end] : NAN;
-            y[count] = end < 2 ? d->factors[quantity] * here->y[end] : NAN;
+        if (here->stable != stable)
+            continue;
+        const int joined = before && before->x[1] == here->x[0] && before->y[1] == here->y[0];
+        if (before && !joined)
+            x[count] = y[count] = NAN, ++count; /* a gap */
+        for (int end = joined; end < 2; ++end, ++count) {
+            x[count] = d->frequency * here->x[end];
+            y[count] = d->factors[quantity] * here->y[end];
         }
+        before = here;
     }
     *curve =
         (fst_chart_curve){.title = stable                ? d->model_words[m]
@@ -428,7 +487,7 @@ static fst_status draw(drawing *d, const fst_sweep_figure *options, const char *
 /* chi^2 of a table before a model. */
 static fst_points_fit fit_of(const pieces *p, const fst_points *points)
 {
-    fst_points_fit found = {0.0, 0, 0};
+    fst_points_fit found = {.counted = 0};
     scaled by_scale = {0.0, 0.0};
     for (int q = 0; q < FST_MEASURED_COUNT; ++q)
         add_chi2(p, points, q, &by_scale, &found);
