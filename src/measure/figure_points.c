@@ -11,6 +11,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "base/number.h"
 #include "draw/caption.h"
 #include "draw/charts_over.h"
 #include "draw/figure_branch.h"
@@ -144,39 +145,77 @@ static fst_status take_sweep(const char *path, pieces *p, fst_error *error)
     return status;
 }
 
-static const struct {
-    fst_measured what;
-    const char *observable;
-} of_branch[] = {{FST_MEASURED_MEAN_R, "mean_r"}, {FST_MEASURED_BEAD_FREQUENCY, "mean_alpha_dot"}};
+enum { MOST_SOLVED = 500 }; /* orbits at measured drives, each in about 10 ms */
 
-enum { CURVES_OF_BRANCH = 2 * sizeof of_branch / sizeof *of_branch }; /* stable and not */
-
-static fst_status take_curves(const fst_branch *branch, double hertz, pieces *p, fst_error *error)
+static fst_status take_curves(const fst_branch *b, double hertz, pieces *p, fst_error *error)
 {
-    fst_columns curves[CURVES_OF_BRANCH];
+    const double factors[] = {b->half_length, b->gamma / FST_TWO_PI};
+    fst_columns curves[4]; /* the stable and the other states of each quantity */
     fst_chart *owner = fst_chart_new();
     size_t room = 0;
     int good = owner != NULL;
-    for (int i = 0; i < CURVES_OF_BRANCH && good; ++i) {
-        good = fst_branch_curve(owner, branch, of_branch[i / 2].observable, i % 2 == 0, &curves[i]);
+    for (int i = 0; i < 4 && good; ++i) {
+        good = fst_branch_curve(owner, b, i < 2 ? "mean_r" : "mean_alpha_dot", i % 2 == 0, &curves[i]);
         room += good ? curves[i].count : 0;
     }
-    const fst_status status = make_room(p, room, error);
-    for (int i = 0; i < CURVES_OF_BRANCH && good && status == FST_OK; ++i) {
-        const int quantity = of_branch[i / 2].what;
-        const double factor =
-            quantity == FST_MEASURED_MEAN_R ? branch->half_length : branch->gamma / FST_TWO_PI;
-        for (size_t k = 0; k + 1 < curves[i].count; ++k) {
-            const double *x = &curves[i].x[k], *y = &curves[i].y[k];
-            add_piece(p, quantity, (double[]){hertz * x[0], hertz * x[1]}, factor * y[0], factor * y[1],
-                      i % 2 == 0);
-        }
-    }
+    const fst_status status = good ? make_room(p, room, error)
+                                   : fst_fail(error, FST_NO_MEMORY, "", "no memory for the curves of a branch");
+    for (int i = 0; i < 4 && status == FST_OK; ++i)
+        for (size_t k = 0; k + 1 < curves[i].count; ++k)
+            add_piece(p, i < 2 ? FST_MEASURED_MEAN_R : FST_MEASURED_BEAD_FREQUENCY,
+                      (double[]){hertz * curves[i].x[k], hertz * curves[i].x[k + 1]},
+                      factors[i / 2] * curves[i].y[k], factors[i / 2] * curves[i].y[k + 1], i % 2 == 0);
     fst_chart_free(owner);
-    return good || status != FST_OK ? status : fst_fail(error, FST_NO_MEMORY, "", "no memory for curves");
+    return status;
 }
 
-static fst_status take_branch(const char *path, pieces *p, fst_error *error)
+/* The orbit of the scene at a drive between two neighbouring points of a branch; 0: none was found there. */
+static int solve_between(const fst_branch *b, const fst_branch_point *p, double value, fst_branch_point *found)
+{
+    const fst_branch_point *q = p + 1;
+    const double s = (value - p->value) / (q->value - p->value),
+                 about = p->mean_r + s * (q->mean_r - p->mean_r);
+    fst_orbit orbit, guess = {.outcome = FST_ORBIT_FOUND, .symmetry = p->symmetry, .turns = p->turns};
+    fst_params params = *b->scene;
+    char text[40];
+    guess.means.period = p->period + s * (q->period - p->period);
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        guess.state[i] = p->state[i] + s * (q->state[i] - p->state[i]);
+    (void)fst_number_write(text, sizeof text, value);
+    if (fst_params_set(&params, b->key, text, NULL) != FST_OK ||
+        fst_orbit_near(&params, &guess, 1e-12, NULL, &orbit, NULL) != FST_OK)
+        return 0;
+    *found = p->stable ? *p : *q;
+    found->value = value;
+    found->mean_r = orbit.means.mean_r;
+    found->mean_alpha_dot = orbit.means.mean_alpha_dot;
+    found->period = orbit.means.period;
+    memcpy(found->state, orbit.state, sizeof found->state);
+    return fabs(found->mean_r - about) <= 0.5 * fabs(q->mean_r - p->mean_r) + 0.01; /* else of another branch */
+}
+
+/* Put the orbits at a measured drive among the points of a branch, whose cubics are some micrometres off. */
+static void refine(fst_branch *b, double value, int *most)
+{
+    fst_branch_point found;
+    for (size_t i = 0; i + 1 < b->point_count && *most > 0; ++i) {
+        const fst_branch_point *p = &b->points[i], *q = p + 1;
+        if (p->branch != q->branch || !(p->stable || q->stable) || p->turns != q->turns ||
+            p->symmetry != q->symmetry || !((value - p->value) * (value - q->value) < 0.0))
+            continue;
+        *most -= 1;
+        fst_branch_point *longer =
+            solve_between(b, p, value, &found) ? realloc(b->points, (b->point_count + 1) * sizeof *p) : NULL;
+        if (!longer)
+            continue; /* the cubics are there */
+        b->points = longer;
+        memmove(&longer[i + 2], &longer[i + 1], (b->point_count++ - i - 1) * sizeof *longer);
+        longer[++i] = found;
+    }
+}
+
+static fst_status take_branch(const char *path, const fst_points *tables, int table_count, pieces *p,
+                              fst_error *error)
 {
     fst_branch branch;
     fst_status status = fst_branch_read(path, &branch, error);
@@ -189,6 +228,11 @@ static fst_status take_branch(const char *path, pieces *p, fst_error *error)
         status = fst_fail(error, FST_BAD_INPUT, path,
                           "this branch does not say by which length and rate it is scaled: "
                           "follow it again");
+    const int orbits = branch.kind == FST_BRANCH_COUNTER || branch.kind == FST_BRANCH_ALL;
+    int most = orbits && branch.scene ? MOST_SOLVED : 0;
+    for (int t = 0; t < table_count && status == FST_OK; ++t)
+        for (size_t i = 0; i < tables[t].count && most > 0; ++i)
+            refine(&branch, tables[t].rows[i].frequency / hertz, &most);
     if (status == FST_OK)
         status = take_curves(&branch, hertz, p, error);
     p->length = branch.half_length;
@@ -268,6 +312,8 @@ static void tell_left_out(const pieces *p, const fst_point *point, int quantity,
     if (size > 192)
         (void)snprintf(fit->left_out + used, size, "line %d (%.6g Hz), %s: %s\n", point->line, x,
                        fst_measured_name((fst_measured)quantity), why);
+    else if (!strstr(fit->left_out, "others"))
+        (void)snprintf(fit->left_out + used, size, "and others\n");
 }
 
 static void add_chi2(const pieces *p, const fst_points *points, int quantity, scaled *by_scale,
@@ -505,7 +551,7 @@ static fst_status read_all(drawing *d, fst_error *error)
         status = fst_is_sweep(d->results[m], &is_sweep, error);
         if (status == FST_OK)
             status = is_sweep ? take_sweep(d->results[m], &d->models[m], error)
-                              : take_branch(d->results[m], &d->models[m], error);
+                              : take_branch(d->results[m], d->points, d->table_count, &d->models[m], error);
     }
     for (int i = 0; i < d->result_count * d->table_count && status == FST_OK; ++i) {
         const int p = i % d->table_count;
