@@ -228,13 +228,15 @@ FST_API double fst_fitted_radius(const fst_measurement *measured, double t);
 /* Lay up to FST_CHARTS_OVER tables of measured points with their errors over the curves of as many sweeps over the
  * drive (databases) or branches over the drive (JSON), a panel for each quantity.  Of the options (NULL: all zeros)
  * count the units (as given: mm and Hz), title and size.  chi^2 is the sum over all measured numbers for which there
- * is a curve at their frequency (of a branch: the nearest stable one), and `counted` says how many these are; `fits`
+ * is a curve at their frequency (of a branch: the nearest stable one), and `counted` says how many these are; `left_out` names the others with the
+ * reason, each on a line, as many as have room; `fits`
  * (NULL: not wanted) has room for result_count * point_count, those of result m and table p at m * point_count + p.
  * FST_BAD_INPUT: scaled units, and two results differ in l or gamma. */
 struct fst_sweep_figure;
 typedef struct fst_points_fit {
     double chi2;
     int counted, all;
+    char left_out[2048];
 } fst_points_fit;
 FST_API fst_status fst_figure_points(const char *const *results, int result_count, const char *const *points,
                                      int point_count, const struct fst_sweep_figure *options, const char *out,

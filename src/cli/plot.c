@@ -188,6 +188,9 @@ static void tell_fits(const arguments *given, const char *const *tables, int tab
         if (count > 1)
             (void)fprintf(out, "%s over %s%s\n", shown(tables[i % table_count], names[0]),
                           shown(given->operands[i / table_count], names[1]), remark);
+        if (fit->left_out[0])
+            (void)fprintf(stderr, "%s over %s, left out:\n%s", shown(tables[i % table_count], names[0]),
+                          shown(given->operands[i / table_count], names[1]), fit->left_out);
     }
     tell_written(to, count > 1 ? "" : remark);
 }

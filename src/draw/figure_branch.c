@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "draw/caption.h"
 #include "draw/chart.h"
+#include "draw/figure_branch.h"
 
 enum {
     CIRCLE = 181,
@@ -86,11 +87,7 @@ static int goes_on_to(const fst_observable_info *what, const fst_branch_point *f
     return !is_angle(what) || !(fabs(value_of(to, what) - value_of(from, what)) > 90.0);
 }
 
-/* Write a curve as two columns of numbers. */
-typedef struct columns {
-    double *x, *y;
-    size_t count;
-} columns;
+typedef fst_columns columns;
 
 static int make_columns(fst_chart *chart, columns *c, size_t capacity)
 {
@@ -165,6 +162,16 @@ static void put_gap(columns *c, const fst_branch *b, const fst_branch_point *p, 
         put(c, at->value, at->omega + q->turns * FST_TWO_PI / at->period);
 }
 
+/* Where the branch is born on another one, if it is known; only means go over to those of the orbits there: a
+ * period may double. */
+static void put_birth(columns *c, const fst_branch *b, const fst_branch_point *first,
+                      const fst_observable_info *what)
+{
+    for (size_t i = 0; i < b->special_count && strncmp(what->name, "mean_", 5) == 0; ++i)
+        if (b->specials[i].born == first->branch && goes_on_to(what, &b->specials[i].at, first))
+            put(c, b->specials[i].value, value_of(&b->specials[i].at, what));
+}
+
 /* Write the pieces of one stability, with a gap between them. */
 static void put_pieces(columns *c, const fst_branch *b, const fst_observable_info *what, int stable)
 {
@@ -174,6 +181,8 @@ static void put_pieces(columns *c, const fst_branch *b, const fst_observable_inf
         const int goes_on = i + 1 < b->point_count && p[1].branch == p->branch;
         if (p->stable != stable || is_hidden(b, what, p->branch))
             continue;
+        if (!joined)
+            put_birth(c, b, p, what);
         if (joined && p[-1].stable != stable)
             put_border(c, b, p - 1, p, what);
         if (joined && p[-1].stable == stable && !goes_on_to(what, p - 1, p))
@@ -277,6 +286,22 @@ static int smoothen(fst_chart *chart, columns *c)
     }
     *c = smooth;
     return 1;
+}
+
+/* The most numbers that a curve of a branch is made of, before it is smooth. */
+static size_t room_for(const fst_branch *b)
+{
+    return 7 * b->point_count + b->special_count;
+}
+
+int fst_branch_curve(fst_chart *chart, const fst_branch *b, const char *observable, int stable,
+                     fst_columns *curve)
+{
+    const fst_observable_info *what = find_observable(observable);
+    if (!make_columns(chart, curve, room_for(b)))
+        return 0;
+    put_pieces(curve, b, what, stable);
+    return smoothen(chart, curve);
 }
 
 static void show_in_units(columns *c, const shown *s)
@@ -505,7 +530,7 @@ static fst_status fill(fst_chart *chart, const fst_branch *b, const shown *s, co
 {
     columns c[CURVES];
     fst_chart_curve *curves = fst_chart_keep(chart, CURVES * sizeof *curves);
-    const size_t most = b->point_count * (s->what ? 7 : FST_LEVITATION_DIRECTIONS) + b->special_count + CIRCLE;
+    const size_t most = room_for(b) + FST_LEVITATION_DIRECTIONS * b->point_count + CIRCLE;
     for (int i = 0; i < CURVES; ++i)
         if (!curves || !make_columns(chart, &c[i], most + dot_count))
             return FST_NO_MEMORY;

@@ -1,7 +1,7 @@
 /* figure_points.c - measured points over the curves of a sweep or of a branch, with chi^2.
  *
- * A curve is made of straight pieces between neighbouring rows of a sweep with the same regime, or between
- * neighbouring points of a branch.  What was measured is compared with stable states alone: no bead stays on
+ * A curve is made of straight pieces between neighbouring rows of a sweep with the same regime, or along the
+ * smooth curve of a branch, whose points are few.  What was measured is compared with stable states alone: no bead stays on
  * others.
  */
 #include <festoon/festoon_tools.h>
@@ -11,8 +11,10 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "base/number.h"
 #include "draw/caption.h"
 #include "draw/charts_over.h"
+#include "draw/figure_branch.h"
 #include "draw/legend.h"
 
 /* A straight piece of a curve, of one quantity, in Hz and SI. */
@@ -143,33 +145,96 @@ static fst_status take_sweep(const char *path, pieces *p, fst_error *error)
     return status;
 }
 
-static fst_status take_branch(const char *path, pieces *p, fst_error *error)
+enum { MOST_SOLVED = 500 }; /* orbits at measured drives, each in about 10 ms */
+
+static fst_status take_curves(const fst_branch *b, double hertz, pieces *p, fst_error *error)
+{
+    const double factors[] = {b->half_length, b->gamma / FST_TWO_PI};
+    fst_columns curves[4]; /* the stable and the other states of each quantity */
+    fst_chart *owner = fst_chart_new();
+    size_t room = 0;
+    int good = owner != NULL;
+    for (int i = 0; i < 4 && good; ++i) {
+        good = fst_branch_curve(owner, b, i < 2 ? "mean_r" : "mean_alpha_dot", i % 2 == 0, &curves[i]);
+        room += good ? curves[i].count : 0;
+    }
+    const fst_status status = good ? make_room(p, room, error)
+                                   : fst_fail(error, FST_NO_MEMORY, "", "no memory for the curves of a branch");
+    for (int i = 0; i < 4 && status == FST_OK; ++i)
+        for (size_t k = 0; k + 1 < curves[i].count; ++k)
+            add_piece(p, i < 2 ? FST_MEASURED_MEAN_R : FST_MEASURED_BEAD_FREQUENCY,
+                      (double[]){hertz * curves[i].x[k], hertz * curves[i].x[k + 1]},
+                      factors[i / 2] * curves[i].y[k], factors[i / 2] * curves[i].y[k + 1], i % 2 == 0);
+    fst_chart_free(owner);
+    return status;
+}
+
+/* The orbit of the scene at a drive between two neighbouring points of a branch; 0: none was found there. */
+static int solve_between(const fst_branch *b, const fst_branch_point *p, double value, fst_branch_point *found)
+{
+    const fst_branch_point *q = p + 1;
+    const double s = (value - p->value) / (q->value - p->value),
+                 about = p->mean_r + s * (q->mean_r - p->mean_r);
+    fst_orbit orbit, guess = {.outcome = FST_ORBIT_FOUND, .symmetry = p->symmetry, .turns = p->turns};
+    fst_params params = *b->scene;
+    char text[40];
+    guess.means.period = p->period + s * (q->period - p->period);
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        guess.state[i] = p->state[i] + s * (q->state[i] - p->state[i]);
+    (void)fst_number_write(text, sizeof text, value);
+    if (fst_params_set(&params, b->key, text, NULL) != FST_OK ||
+        fst_orbit_near(&params, &guess, 1e-12, NULL, &orbit, NULL) != FST_OK)
+        return 0;
+    *found = p->stable ? *p : *q;
+    found->value = value;
+    found->mean_r = orbit.means.mean_r;
+    found->mean_alpha_dot = orbit.means.mean_alpha_dot;
+    found->period = orbit.means.period;
+    memcpy(found->state, orbit.state, sizeof found->state);
+    return fabs(found->mean_r - about) <= 0.5 * fabs(q->mean_r - p->mean_r) + 0.01; /* else of another branch */
+}
+
+/* Put the orbits at a measured drive among the points of a branch, whose cubics are some micrometres off. */
+static void refine(fst_branch *b, double value, int *most)
+{
+    fst_branch_point found;
+    for (size_t i = 0; i + 1 < b->point_count && *most > 0; ++i) {
+        const fst_branch_point *p = &b->points[i], *q = p + 1;
+        if (p->branch != q->branch || !(p->stable || q->stable) || p->turns != q->turns ||
+            p->symmetry != q->symmetry || !((value - p->value) * (value - q->value) < 0.0))
+            continue;
+        *most -= 1;
+        fst_branch_point *longer =
+            solve_between(b, p, value, &found) ? realloc(b->points, (b->point_count + 1) * sizeof *p) : NULL;
+        if (!longer)
+            continue; /* the cubics are there */
+        b->points = longer;
+        memmove(&longer[i + 2], &longer[i + 1], (b->point_count++ - i - 1) * sizeof *longer);
+        longer[++i] = found;
+    }
+}
+
+static fst_status take_branch(const char *path, const fst_points *tables, int table_count, pieces *p,
+                              fst_error *error)
 {
     fst_branch branch;
     fst_status status = fst_branch_read(path, &branch, error);
     if (status != FST_OK)
         return status;
-    const double hertz = to_hertz(branch.key, branch.gamma), rate = branch.gamma / FST_TWO_PI;
+    const double hertz = to_hertz(branch.key, branch.gamma);
     if (hertz == 0.0 || branch.second_key[0])
         status = no_drive(path, branch.second_key[0] ? branch.second_key : branch.key, error);
     else if (isnan(branch.gamma) || isnan(branch.half_length))
         status = fst_fail(error, FST_BAD_INPUT, path,
                           "this branch does not say by which length and rate it is scaled: "
                           "follow it again");
+    const int orbits = branch.kind == FST_BRANCH_COUNTER || branch.kind == FST_BRANCH_ALL;
+    int most = orbits && branch.scene ? MOST_SOLVED : 0;
+    for (int t = 0; t < table_count && status == FST_OK; ++t)
+        for (size_t i = 0; i < tables[t].count && most > 0; ++i)
+            refine(&branch, tables[t].rows[i].frequency / hertz, &most);
     if (status == FST_OK)
-        status = make_room(p, branch.point_count, error);
-    for (size_t i = 0; i + 1 < branch.point_count && status == FST_OK; ++i) {
-        const fst_branch_point *a = &branch.points[i], *b = a + 1;
-        if (a->branch != b->branch)
-            continue;
-        const double x[2] = {hertz * a->value, hertz * b->value};
-        add_piece(p, FST_MEASURED_MEAN_R, x, branch.half_length * a->mean_r, branch.half_length * b->mean_r,
-                  a->stable && b->stable);
-        /* Where an orbit passes the axis the bead's frequency jumps by the drive's. */
-        if (fabs(b->mean_alpha_dot - a->mean_alpha_dot) * rate < 0.5 * fmin(x[0], x[1]))
-            add_piece(p, FST_MEASURED_BEAD_FREQUENCY, x, rate * a->mean_alpha_dot, rate * b->mean_alpha_dot,
-                      a->stable && b->stable);
-    }
+        status = take_curves(&branch, hertz, p, error);
     p->length = branch.half_length;
     p->gamma = branch.gamma;
     p->scene = branch.scene;
@@ -180,6 +245,11 @@ static fst_status take_branch(const char *path, pieces *p, fst_error *error)
 
 /* ---------------------------------------------------------------- chi^2 */
 
+static int covers(const piece *here, double x)
+{
+    return x >= fmin(here->x[0], here->x[1]) && x <= fmax(here->x[0], here->x[1]) && here->x[0] != here->x[1];
+}
+
 /* The stable piece at a frequency that is nearest to a value; NULL: there is none. */
 static const piece *nearest_piece(const pieces *p, int quantity, double x, double value)
 {
@@ -187,8 +257,7 @@ static const piece *nearest_piece(const pieces *p, int quantity, double x, doubl
     double nearest = INFINITY;
     for (size_t i = 0; i < p->count[quantity]; ++i) {
         const piece *here = &p->list[quantity][i];
-        if (!here->stable || x < fmin(here->x[0], here->x[1]) || x > fmax(here->x[0], here->x[1]) ||
-            here->x[0] == here->x[1])
+        if (!here->stable || !covers(here, x))
             continue;
         const double y = here->y[0] + (x - here->x[0]) / (here->x[1] - here->x[0]) * (here->y[1] - here->y[0]);
         if (fabs(y - value) < nearest) {
@@ -220,6 +289,33 @@ static double part_of_chi2(const piece *at, const fst_point *point, int quantity
     return off * off / variance;
 }
 
+/* Say which measured number has no part in chi^2, and why. */
+static void tell_left_out(const pieces *p, const fst_point *point, int quantity, fst_points_fit *fit)
+{
+    const size_t used = strlen(fit->left_out), size = sizeof fit->left_out - used;
+    const double x = point->frequency;
+    double low = INFINITY, high = -INFINITY;
+    int unstable = 0;
+    for (size_t i = 0; i < p->count[quantity]; ++i) {
+        const piece *here = &p->list[quantity][i];
+        low = fmin(low, fmin(here->x[0], here->x[1]));
+        high = fmax(high, fmax(here->x[0], here->x[1]));
+        unstable = unstable || covers(here, x);
+    }
+    char why[96] = "the curve has a gap there";
+    if (low > high)
+        (void)snprintf(why, sizeof why, "the file has no curve of it");
+    else if (unstable)
+        (void)snprintf(why, sizeof why, "all states there are unstable");
+    else if (x < low || x > high)
+        (void)snprintf(why, sizeof why, "the curve reaches from %.6g Hz to %.6g Hz", low, high);
+    if (size > 192)
+        (void)snprintf(fit->left_out + used, size, "line %d (%.6g Hz), %s: %s\n", point->line, x,
+                       fst_measured_name((fst_measured)quantity), why);
+    else if (!strstr(fit->left_out, "others"))
+        (void)snprintf(fit->left_out + used, size, "and others\n");
+}
+
 static void add_chi2(const pieces *p, const fst_points *points, int quantity, scaled *by_scale,
                      fst_points_fit *fit)
 {
@@ -232,6 +328,8 @@ static void add_chi2(const pieces *p, const fst_points *points, int quantity, sc
         if (at) {
             ++fit->counted;
             fit->chi2 += part_of_chi2(at, point, quantity, by_scale);
+        } else {
+            tell_left_out(p, point, quantity, fit);
         }
     }
 }
@@ -326,12 +424,19 @@ static int put_model(drawing *d, int m, int quantity, int stable, int *named, fs
     const size_t room = 3 * p->count[quantity] + 1;
     double *x = fst_chart_keep(d->chart, 2 * room * sizeof *x), *y = x + room;
     size_t count = 0;
+    const piece *before = NULL;
     for (size_t i = 0; x && i < p->count[quantity]; ++i) {
         const piece *here = &p->list[quantity][i];
-        for (int end = 0; end < 3 && here->stable == stable; ++end, ++count) { /* both ends, and a gap */
-            x[count] = end < 2 ? d->frequency * here->x[end] : NAN;
-            y[count] = end < 2 ? d->factors[quantity] * here->y[end] : NAN;
+        if (here->stable != stable)
+            continue;
+        const int joined = before && before->x[1] == here->x[0] && before->y[1] == here->y[0];
+        if (before && !joined)
+            x[count] = y[count] = NAN, ++count; /* a gap */
+        for (int end = joined; end < 2; ++end, ++count) {
+            x[count] = d->frequency * here->x[end];
+            y[count] = d->factors[quantity] * here->y[end];
         }
+        before = here;
     }
     *curve =
         (fst_chart_curve){.title = stable                ? d->model_words[m]
@@ -428,7 +533,7 @@ static fst_status draw(drawing *d, const fst_sweep_figure *options, const char *
 /* chi^2 of a table before a model. */
 static fst_points_fit fit_of(const pieces *p, const fst_points *points)
 {
-    fst_points_fit found = {0.0, 0, 0};
+    fst_points_fit found = {.counted = 0};
     scaled by_scale = {0.0, 0.0};
     for (int q = 0; q < FST_MEASURED_COUNT; ++q)
         add_chi2(p, points, q, &by_scale, &found);
@@ -446,7 +551,7 @@ static fst_status read_all(drawing *d, fst_error *error)
         status = fst_is_sweep(d->results[m], &is_sweep, error);
         if (status == FST_OK)
             status = is_sweep ? take_sweep(d->results[m], &d->models[m], error)
-                              : take_branch(d->results[m], &d->models[m], error);
+                              : take_branch(d->results[m], d->points, d->table_count, &d->models[m], error);
     }
     for (int i = 0; i < d->result_count * d->table_count && status == FST_OK; ++i) {
         const int p = i % d->table_count;

@@ -183,6 +183,7 @@ class Points(Program):
         said = self.festoon("plot", branch, "--points", words, "-o", self.path("fig.svg")).stderr
         chi2, counted = re.search(r"chi\^2 = ([\d.]+) of (\d+) measured", said).groups()
         self.assertEqual(counted, "3")
+        self.assertRegex(said, r"left out:\nline \d+ \(6\.7 Hz\), bead_frequency: all states there are unstable\n")
         before, joined = None, 0
         with open(self.path("fig.dat"), encoding="utf-8") as file:
             for line in file:
@@ -194,6 +195,48 @@ class Points(Program):
                 before = numbers
         self.assertGreater(joined, 20)
         self.assertLess(float(chi2), 3.0)
+
+    def test_exact_orbits_over_a_branch(self):
+        """Orbits that are found one by one, between the branch's points and on either side of its pitchfork at 13.37 Hz,
+        lie on its curve, by either key of the drive; what has no part in chi^2 is named with the reason."""
+        if not shutil.which("gnuplot"):
+            self.skipTest("no gnuplot")
+        orbits = {}
+        for f in (9.3, 10.7, 11.4, 12.1, 13.3, 14.0, 14.4):
+            done = subprocess.run([FESTOON, "orbit", "--json", "--set", f"drive.frequency={f}Hz"], capture_output=True, text=True)
+            if done.returncode == 1 and "LAPACK" in done.stderr:
+                self.skipTest("no LAPACK")
+            orbits[f] = json.loads(done.stdout)
+        head = "frequency [Hz],mean_r [mm],mean_r_error [mm],bead_frequency [Hz],bead_frequency_error [Hz]\n"
+        rows = {f: f"{f},{23 * orbit['mean_r']!r},0.01,{orbit['mean_alpha_dot'] * 312.5 / (2 * math.pi)!r},0.001\n"
+                for f, orbit in orbits.items()}
+        tables = [self.write(f"{f}.csv", head + row) for f, row in rows.items()]
+        tables.append(self.write("all.csv", head + "".join(rows.values())))
+        for over in ("drive.frequency=8Hz:25Hz", "drive.omega=0.16:0.5"):
+            branch = self.path("branch.json")
+            self.festoon("branch", "--kind", "counter", "--over", over, "-o", branch)
+            for table in tables:
+                said = self.festoon("plot", branch, "--points", table, "-o", self.path("fig.svg")).stderr
+                chi2, counted, count = re.search(r"chi\^2 = (\S+) of (\d+) measured numbers \((\d+) in", said).groups()
+                self.assertLess(float(chi2), 0.05, said)
+                self.assertEqual(counted, count)
+                self.assertNotIn("left out", said)
+        # Both stable branches are drawn up to the pitchfork, as smooth curves.
+        with open(branch, encoding="utf-8") as file:
+            pitchfork = next(special for special in json.load(file)["specials"] if special["type"] == "pitchfork")
+        with open(self.path("fig.dat"), encoding="utf-8") as file:
+            block = file.read().split("\n\n\n")[0]
+        drawn = [[float(word) for word in line.split()] for line in block.split("\n") if line[:1].isdigit()]
+        xs = sorted(x for x, *_ in drawn if math.isfinite(x))
+        self.assertLess(max(b - a for a, b in zip(xs, xs[1:])), 0.3)
+        there = (pitchfork["value"] * 312.5 / (2 * math.pi), 23 * pitchfork["at"]["mean_r"])
+        self.assertEqual(sum(math.dist(there, point[:2]) < 1e-5 for point in drawn), 2)
+        odd = self.write("odd.csv", "frequency [Hz],mean_r [mm],mean_r_error [mm],std_r [mm],std_r_error [mm]\n"
+                                    "10.7,17.63,0.1,1,0.1\n40,20,1,,\n")
+        said = self.festoon("plot", branch, "--points", odd, "-o", self.path("fig.svg")).stderr
+        self.assertRegex(said, r"odd\.csv over .*branch\.json, left out:\nline 3 \(40 Hz\), mean_r: the curve reaches from [\d.]+ Hz to "
+                               r"[\d.]+ Hz\nline 2 \(10\.7 Hz\), std_r: the file has no curve of it\n")
+        self.assertIn("of 1 measured numbers (3 in the table)", said)
 
 
 class Readings(Program):
