@@ -243,9 +243,11 @@ FST_API void fst_festoons_free(fst_festoon_list *list);
 
 /* The spectrum of Lyapunov exponents. */
 typedef struct fst_lyapunov {
-    double exponents[FST_EIGENVALUE_COUNT]; /* falling; gamma */
-    double errors[FST_EIGENVALUE_COUNT];    /* standard errors, from blocks */
-    double error;                           /* the greatest of the errors */
+    double
+        exponents[FST_EIGENVALUE_COUNT]; /* falling; gamma; -INFINITY: erased by a contact that comes to rest;
+                                               of a bead that flew the nine greatest of eleven */
+    double errors[FST_EIGENVALUE_COUNT]; /* standard errors, from blocks */
+    double error;                        /* the greatest of the errors */
     int converged;      /* every exponent has a sure sign, or is zero within an error below 1e-4 */
     int flow_direction; /* the index of the exponent that belongs to the flow; -1 at an equilibrium */
     double divergence;  /* the mean divergence of the flow, measured independently; it equals the sum of the

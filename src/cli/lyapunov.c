@@ -13,15 +13,23 @@ static void print_spectrum(FILE *out, const fst_lyapunov *l)
     (void)fprintf(out, "Lyapunov exponents over %.6g/gamma: %s\n", l->time,
                   l->converged ? "converged" : "undecided, take a longer run.periods");
     double sum = 0.0;
+    int erased = 0;
     for (int i = 0; i < FST_EIGENVALUE_COUNT; ++i) {
         sum += l->exponents[i];
+        if (!isfinite(l->exponents[i])) {
+            (void)fprintf(out, "  %14s\n", "-inf");
+            erased = 1;
+            continue;
+        }
         (void)fprintf(out, "  %14.9f +- %.2g%s\n", unsigned_zero(l->exponents[i], 9), l->errors[i],
                       i == l->flow_direction ? "   (the flow direction: zero)" : "");
     }
+    if (erased)
+        (void)fputs("  a contact that comes to rest erases two directions: -inf\n", out);
     if (isnan(l->divergence))
-        (void)fprintf(out, "  sum %.9f (the bead flew, and impacts have no divergence)\n",
+        (void)fprintf(out, "  sum %.9f (the bead flew: nine of eleven, and impacts have no divergence)\n",
                       unsigned_zero(sum, 9));
-    else
+    else if (!erased)
         (void)fprintf(out, "  sum %.9f, mean divergence of the flow %.9f\n", unsigned_zero(sum, 9),
                       unsigned_zero(l->divergence, 9));
 }

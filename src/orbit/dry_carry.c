@@ -33,33 +33,39 @@ static fst_status refuse(const fst_flow *flow, fst_error *error)
         flow->t.high);
 }
 
+fst_status fst_dry_step(const fst_setup *setup, struct fst_neighbours *b, fst_flow *flow, double until,
+                        int *creeping, fst_error *error)
+{
+    fst_status status = fst_watch_count(setup->watch, STEP_WORK, error);
+    if (status == FST_OK)
+        status = fst_flow_step(flow, until, error);
+    if (status != FST_OK)
+        return status;
+    if (!fst_neighbours_known(flow))
+        return refuse(flow, error);
+    *creeping = fst_contact_elapsed(flow) < NO_TIME ? *creeping + 1 : 0;
+    if (*creeping > MOST_CREEPING)
+        return fst_fail(error, FST_NO_CONVERGENCE, "tangents",
+                        "friction can hardly stop the contact's slip at t = %.6g", flow->t.high);
+    fst_neighbours_follow(b, flow);
+    return FST_OK;
+}
+
 static fst_status follow(const fst_setup *setup, fst_neighbours *b, fst_flow *flow, double duration,
                          fst_error *error)
 {
     const fst_twofold end = {duration, 0.0};
     int creeping = 0;
     fst_neighbours_start(b, flow);
-    while (fst_twofold_difference(end, flow->t) > 0.0 || (setup->late && fst_flight_is_on(flow))) {
-        const int more = fst_twofold_difference(end, flow->t) > 0.0;
-        fst_status status = fst_watch_count(setup->watch, STEP_WORK, error);
-        if (status == FST_OK)
-            status = fst_flow_step(flow, more ? duration : flow->t.high + 1.0, error);
+    while (fst_twofold_difference(end, flow->t) > 0.0) {
+        const fst_status status = fst_dry_step(setup, b, flow, duration, &creeping, error);
         if (status != FST_OK)
             return status;
-        if (!fst_neighbours_known(flow))
-            return refuse(flow, error);
-        creeping = fst_contact_elapsed(flow) < NO_TIME ? creeping + 1 : 0;
-        if (creeping > MOST_CREEPING)
-            return fst_fail(error, FST_NO_CONVERGENCE, "tangents",
-                            "friction can hardly stop the contact's slip at t = %.6g", flow->t.high);
-        fst_neighbours_follow(b, flow);
         if (setup->sticks && fst_sticks_double(fst_flow_world(flow), fst_flow_modes(flow)) > 0.5)
             *setup->sticks = 1;
     }
     if (fst_flight_is_on(flow))
         return refuse(flow, error);
-    if (setup->late)
-        *setup->late = -fst_twofold_difference(end, flow->t);
     fst_neighbours_at_equal_times(b, flow);
     return FST_OK;
 }

@@ -39,7 +39,6 @@ typedef struct fst_setup {
     double spread;    /* of the parameter between them */
     fst_watch *watch; /* the family's */
     int *sticks;      /* set to 1 where the contact comes to rest on a way (NULL: nobody asks) */
-    double *late;     /* how much longer a way took that would have ended in the air (NULL: none may) */
 } fst_setup;
 
 /* A family over `key` (NULL: none free); clears the other forms of the quantity.  FST_BAD_INPUT: no such key,
@@ -84,6 +83,13 @@ fst_status fst_carry(const fst_setup *setup, double tolerance, double duration, 
 /* The same under the laws whose contact can stick, through its changes of mode (dry_carry.c). */
 fst_status fst_dry_carry(const fst_setup *setup, double tolerance, double duration, double y[FST_STATE_SIZE],
                          double tangent[FST_STATE_SIZE][FST_COLUMNS], fst_error *error);
+
+struct fst_neighbours;
+
+/* One step of that: the flow goes on, no further than to the time `until`, with its neighbours; `creeping` counts
+ * the steps that took no time. */
+fst_status fst_dry_step(const fst_setup *setup, struct fst_neighbours *b, fst_flow *flow, double until,
+                        int *creeping, fst_error *error);
 
 /* An orthonormal basis of the tangent space at y: basis[i][j] is component i of vector j.  Seven vectors lie
  * along the axes; two span the plane across n. */

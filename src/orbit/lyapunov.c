@@ -16,6 +16,10 @@
  * periods.  The rates and their errors come from growth.c; an error cannot be smaller than what may remain of
  * the turning into place.  Two exponents too close to be separated in the time get wider errors.
  *
+ * Under dry friction the vectors follow one flow through its changes of mode (ode/neighbours.c).  In the air two
+ * more numbers, height and climb, and their differences are part of the state: there are eleven directions, and the
+ * nine vectors show the nine greatest exponents.  A bead that bounces is made orthonormal at each impact, too.
+ *
  * The mean divergence of the equations is measured beside them: the exponents must add up to it.  If the bead
  * moves in the turning frame, one exponent belongs to the direction of the flow and must be zero.
  */
@@ -28,6 +32,7 @@
 #include "base/error.h"
 #include "base/watch.h"
 #include "ode/flight.h"
+#include "ode/neighbours.h"
 #include "study/growth.h"
 
 enum {
@@ -51,14 +56,19 @@ static const double DISCARD_WORK = 0.1;
 typedef struct spectrum {
     fst_setup setup;
     double tolerance;
-    double y[FST_STATE_SIZE], tangent[FST_STATE_SIZE][FST_COLUMNS];
+    double y[FST_STATE_SIZE];
+    fst_neighbours bundle; /* its first N are the columns */
+    int numbers;           /* of a column */
+    fst_model *model;      /* under dry friction: the motion that the columns follow */
+    fst_flow *flow;
+    double end;          /* of the piece, in the flow's time */
+    int creeping;        /* steps of it that took no time */
     int lost[N];         /* under dry friction: at least once nothing was left of the column */
-    double logarithm[N]; /* by which the columns grew in the last piece */
+    double logarithm[N]; /* by which the columns grew in this piece */
     double sum[N];       /* and since the measurement began */
     fst_growth growth[N], divergence;
     fst_growth_clock clock;
-    double late; /* by how much the last piece was longer, for a bead to come down */
-    int flew;    /* at least once */
+    int flew; /* at least once */
     const fst_progress *progress;
     double passed, whole; /* of the work: the time since the start, and all of it */
 } spectrum;
@@ -75,13 +85,11 @@ static void take_out_n(const spectrum *s, double *v)
 static double take_out_columns(const spectrum *s, int columns, double *v)
 {
     for (int before = 0; before < columns; ++before) {
-        double along = 0.0;
-        for (int i = 0; i < FST_STATE_SIZE; ++i)
-            along += v[i] * s->tangent[i][before];
-        for (int i = 0; i < FST_STATE_SIZE; ++i)
-            v[i] -= along * s->tangent[i][before];
+        const double along = fst_dot(v, s->bundle.d[before], s->numbers);
+        for (int i = 0; i < s->numbers; ++i)
+            v[i] -= along * s->bundle.d[before][i];
     }
-    return fst_dot(v, v, FST_STATE_SIZE);
+    return fst_dot(v, v, s->numbers);
 }
 
 /* Dry friction: a contact that came to rest has left nothing of column c that the ones before do not have.  Its
@@ -92,14 +100,14 @@ static void lose_direction(spectrum *s, int c, double *v)
     s->lost[c] = 1;
     /* Of nine axes, less at most eight columns, one is far enough across. */
     for (int axis = 0; axis < FST_STATE_SIZE && !(square > 0.05); ++axis) {
-        memset(v, 0, FST_STATE_SIZE * sizeof *v);
+        memset(v, 0, FST_NUMBERS * sizeof *v);
         v[axis] = 1.0;
         for (int pass = 0; pass < 2; ++pass) {
             take_out_n(s, v);
             square = take_out_columns(s, c, v);
         }
     }
-    for (int i = 0; i < FST_STATE_SIZE; ++i)
+    for (int i = 0; i < s->numbers; ++i)
         v[i] /= sqrt(square);
 }
 
@@ -107,10 +115,8 @@ static void lose_direction(spectrum *s, int c, double *v)
 static void orthonormalise(spectrum *s)
 {
     for (int c = 0; c < N; ++c) {
-        double total = 1.0, v[FST_STATE_SIZE];
-        for (int i = 0; i < FST_STATE_SIZE; ++i)
-            v[i] = s->tangent[i][c];
-        const double whole = sqrt(fst_dot(v, v, FST_STATE_SIZE));
+        double total = 1.0, *v = s->bundle.d[c];
+        const double whole = sqrt(fst_dot(v, v, s->numbers));
         take_out_n(s, v); /* rounding along n, where nothing shrinks, would in time overgrow what does */
         for (int pass = 0; pass < 2; ++pass) {
             const double length = sqrt(take_out_columns(s, c, v));
@@ -118,13 +124,11 @@ static void orthonormalise(spectrum *s)
                 lose_direction(s, c, v);
                 break;
             }
-            for (int i = 0; i < FST_STATE_SIZE; ++i)
+            for (int i = 0; i < s->numbers; ++i)
                 v[i] /= length;
             total *= length;
         }
-        for (int i = 0; i < FST_STATE_SIZE; ++i)
-            s->tangent[i][c] = v[i];
-        s->logarithm[c] = log(total);
+        s->logarithm[c] += log(total);
     }
 }
 
@@ -138,28 +142,51 @@ static double divergence_at(const spectrum *s)
     return trace; /* along n the flow neither stretches nor shrinks: |n| is kept */
 }
 
-/* On for one piece, short enough for the columns to stay apart.  It ends on the plate; what it takes longer is
- * taken from the next ones, which may have nothing left. */
-static fst_status go_on(spectrum *s, double *piece, fst_error *error)
+/* On with the state and the columns. */
+static fst_status carry(spectrum *s, double piece, fst_error *error)
 {
-    const double late = s->late;
-    fst_status status = fst_tell(s->progress, s->passed / s->whole, NULL, error);
-    s->setup.late = &s->late;
-    if (late >= *piece) {
-        s->late -= *piece;
-        *piece = 0.0;
-        return status;
+    double tangent[FST_STATE_SIZE][FST_COLUMNS] = {{0.0}};
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        for (int c = 0; c < N; ++c)
+            tangent[i][c] = s->bundle.d[c][i];
+    const fst_status status = fst_carry(&s->setup, s->tolerance, piece, s->y, tangent, error);
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        for (int c = 0; c < N; ++c)
+            s->bundle.d[c][i] = tangent[i][c];
+    return status;
+}
+
+/* The same under dry friction.  Many impacts within a piece would leave nothing of some columns. */
+static fst_status carry_dry(spectrum *s, double piece, fst_error *error)
+{
+    fst_flow *flow = s->flow;
+    s->end += piece;
+    while (fst_twofold_difference((fst_twofold){s->end, 0.0}, flow->t) > 0.0) {
+        const fst_status status = fst_dry_step(&s->setup, &s->bundle, flow, s->end, &s->creeping, error);
+        if (status != FST_OK)
+            return status;
+        memcpy(s->y, flow->step.end, sizeof s->y);
+        if (!fst_flight_is_on(flow))
+            continue;
+        s->flew = 1;
+        if (fst_contact_changes(flow))
+            orthonormalise(s);
     }
-    *piece -= late;
-    s->late = 0.0;
+    fst_neighbours_at_equal_times(&s->bundle, flow);
+    return FST_OK;
+}
+
+/* On for one piece, short enough for the columns to stay apart. */
+static fst_status go_on(spectrum *s, double piece, fst_error *error)
+{
+    fst_status status = fst_tell(s->progress, s->passed / s->whole, NULL, error);
+    memset(s->logarithm, 0, sizeof s->logarithm);
     if (status == FST_OK)
-        status = fst_carry(&s->setup, s->tolerance, *piece, s->y, s->tangent, error);
+        status = s->flow ? carry_dry(s, piece, error) : carry(s, piece, error);
     if (status != FST_OK)
         return status;
-    *piece += s->late;
-    s->flew |= s->late > 0.0;
     orthonormalise(s);
-    s->passed += *piece;
+    s->passed += piece;
     return FST_OK;
 }
 
@@ -168,10 +195,9 @@ static fst_status align(spectrum *s, double duration, fst_error *error)
 {
     const double pieces = ceil(duration / PIECE);
     fst_status status = FST_OK;
-    for (double i = 0.0; i < pieces && status == FST_OK; ++i) {
-        double piece = duration / pieces;
-        status = go_on(s, &piece, error);
-    }
+    for (double i = 0.0; i < pieces && status == FST_OK; ++i)
+        status = go_on(s, duration / pieces, error);
+    memset(s->lost, 0, sizeof s->lost); /* what rested once at the start need not rest again */
     return status;
 }
 
@@ -179,8 +205,8 @@ static fst_status align(spectrum *s, double duration, fst_error *error)
 static fst_status measure_piece(spectrum *s, double piece, fst_error *error)
 {
     const double before = divergence_at(s);
-    const fst_status status = go_on(s, &piece, error);
-    if (status != FST_OK || !(piece > 0.0))
+    const fst_status status = go_on(s, piece, error);
+    if (status != FST_OK)
         return status;
     if (hypot(s->y[FST_X], s->y[FST_Y]) > s->setup.model.groups.map_radius)
         return fst_fail(
@@ -201,12 +227,13 @@ static void start_tangents(spectrum *s)
 {
     double basis[FST_STATE_SIZE][N];
     fst_tangent_basis(s->y, basis);
-    memset(s->tangent, 0, sizeof s->tangent);
     /* A fixed mixture of the axes: along them some columns would keep out of some directions for ever. */
     for (int c = 0; c < N; ++c)
         for (int j = 0; j < N; ++j)
             for (int i = 0; i < FST_STATE_SIZE; ++i)
-                s->tangent[i][c] += basis[i][j] * ((j == c ? 1.0 : 0.0) + 0.3 * sin(1.0 + 7.0 * c + 3.0 * j));
+                s->bundle.d[c][i] += basis[i][j] * ((j == c ? 1.0 : 0.0) + 0.3 * sin(1.0 + 7.0 * c + 3.0 * j));
+    if (s->flow)
+        fst_neighbours_start(&s->bundle, s->flow);
     orthonormalise(s);
 }
 
@@ -301,17 +328,16 @@ static fst_status measure(spectrum *s, double duration, double period, fst_lyapu
     return FST_OK;
 }
 
-/* Steps to the end of run.discard, or to where the bead comes down after it; the caller hears of progress between them. */
+/* Steps to the end of run.discard; the caller hears of progress between them. */
 static fst_status steps_until(spectrum *s, fst_flow *flow, double end, fst_error *error)
 {
     const fst_twofold until = {end, 0.0};
     double x;
-    for (uint64_t steps = 0; fst_twofold_difference(until, flow->t) > 0 || fst_flight_is_on(flow); ++steps) {
-        const int before = fst_twofold_difference(until, flow->t) > 0;
+    for (uint64_t steps = 0; fst_twofold_difference(until, flow->t) > 0; ++steps) {
         s->passed = DISCARD_WORK * flow->t.high;
         fst_status status = steps % 64 == 0 ? fst_tell(s->progress, s->passed / s->whole, NULL, error) : FST_OK;
         if (status == FST_OK)
-            status = fst_flow_step(flow, before ? end : flow->t.high + 1.0, error);
+            status = fst_flow_step(flow, end, error);
         if (status != FST_OK)
             return status;
         if (fst_flow_first_negative(flow, fst_edge_function, 0.0, &x))
@@ -324,21 +350,28 @@ static fst_status steps_until(spectrum *s, fst_flow *flow, double end, fst_error
     return FST_OK;
 }
 
-/* What is left out: from the start to the end of run.discard. */
+static void free_motion(spectrum *s)
+{
+    fst_flow_free(s->flow);
+    fst_model_free(s->model);
+    s->flow = NULL;
+    s->model = NULL;
+}
+
+/* What is left out: from the start to the end of run.discard.  Under dry friction the motion goes on from there. */
 static fst_status discard(spectrum *s, const fst_family *family, double duration, fst_error *error)
 {
     double start[FST_STATE_SIZE];
-    fst_model *model = NULL;
-    fst_flow *flow = NULL;
     fst_status status = fst_start_state(&family->params, &s->setup.model, start, error);
     if (status == FST_OK)
-        status = fst_solution_flow(family, 0.0, start, s->tolerance, &model, &flow, error);
+        status = fst_solution_flow(family, 0.0, start, s->tolerance, &s->model, &s->flow, error);
     if (status != FST_OK)
         return status;
-    status = steps_until(s, flow, duration, error);
-    memcpy(s->y, fst_flow_get(flow).state, sizeof s->y);
-    fst_flow_free(flow);
-    fst_model_free(model);
+    status = steps_until(s, s->flow, duration, error);
+    memcpy(s->y, fst_flow_get(s->flow).state, sizeof s->y);
+    s->end = duration;
+    if (!s->setup.model.world.kinds.dry)
+        free_motion(s);
     return status;
 }
 
@@ -360,9 +393,14 @@ fst_status fst_lyapunov_find(const fst_params *params, const fst_progress *progr
     const double period = fst_drive_period_double(s.setup.model.groups.omega);
     const double discarded = fst_run_discard(params), measured = fst_run_periods(params) - discarded;
     s.whole = (DISCARD_WORK * discarded + ALIGNING + measured) * period;
+    s.bundle.count = N;
+    s.bundle.parameter = -1;
+    s.numbers = s.setup.model.world.kinds.dry ? FST_NUMBERS : FST_STATE_SIZE;
     status = discard(&s, &family, discarded * period, error);
-    if (status != FST_OK)
-        return status;
-    start_tangents(&s);
-    return measure(&s, measured * period, period, out, error);
+    if (status == FST_OK) {
+        start_tangents(&s);
+        status = measure(&s, measured * period, period, out, error);
+    }
+    free_motion(&s);
+    return status;
 }

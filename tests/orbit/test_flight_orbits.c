@@ -1,5 +1,6 @@
 /* Orbits on which the bead flies: multipliers against the eigenvalues of the return by central differences of the
- * flow; branches from orbits that stay on the plate to orbits that do not; exponents of two programs.
+ * flow; branches from orbits that stay on the plate to orbits that do not; exponents of two programs,
+ * and of runs beside each other.
  * tests: orbit/dry_carry.c ode/neighbours.c orbit/spectrum.c orbit/curve.c study/exponent.c orbit/lyapunov.c */
 #include "branches.h"
 #include "physics.h"
@@ -209,10 +210,115 @@ static void exponents_of_hops(void **unused)
     CHECK_CLOSE(l.exponents[l.flow_direction], 0.0, 4.0 * l.errors[l.flow_direction]);
 }
 
+/* ------------------------------------------------------------------ a bead that hardly ever stays on the plate */
+
+enum { COLUMNS = FST_TANGENT_SIZE, ALOFT = FST_STATE_SIZE + 2 };
+
+/* Make the differences orthonormal and add up the logarithms of what they had grown to. */
+static void orthonormal(double d[COLUMNS][ALOFT], double *logarithms)
+{
+    for (int c = 0; c < COLUMNS; ++c) {
+        for (int before = 0; before < c; ++before) {
+            double along = 0.0;
+            for (int i = 0; i < ALOFT; ++i)
+                along += d[c][i] * d[before][i];
+            for (int i = 0; i < ALOFT; ++i)
+                d[c][i] -= along * d[before][i];
+        }
+        double square = 0.0;
+        for (int i = 0; i < ALOFT; ++i)
+            square += d[c][i] * d[c][i];
+        for (int i = 0; i < ALOFT; ++i)
+            d[c][i] /= sqrt(square);
+        logarithms[c] += 0.5 * log(square);
+    }
+}
+
+static void step_until(fst_flow *flow, double until)
+{
+    fst_error error;
+    while (flow->t.high < until)
+        if (fst_flow_step(flow, until, &error) != FST_OK)
+            fail_msg("%s", error.sentence);
+}
+
+static int place_of(int i)
+{
+    return i < FST_STATE_SIZE ? i : i - FST_STATE_SIZE + FST_HEIGHT;
+}
+
+/* Nine runs beside the flow, put back near to it again and again.  No tangent knows of them. */
+static void exponents_beside(fst_flow *flow, double aligned, double until, double *exponents)
+{
+    const double h = 1e-7, piece = 0.02;
+    double d[COLUMNS][ALOFT];
+    for (int c = 0; c < COLUMNS; ++c)
+        for (int i = 0; i < ALOFT; ++i)
+            d[c][i] = (i == c + (c > FST_NX) ? 1.0 : 0.0) + 0.3 * sin(1.0 + 7.0 * c + 3.0 * i);
+    orthonormal(d, exponents);
+    for (double start = flow->t.high, from = start; from < until; from += piece) {
+        if (from < aligned)
+            memset(exponents, 0, COLUMNS * sizeof *exponents);
+        const fst_flow before = *flow;
+        const int flies = fst_flight_is_on(flow);
+        step_until(flow, from + piece);
+        for (int c = 0; c < COLUMNS; ++c) {
+            fst_flow other = before;
+            for (int i = 0; i < (flies ? ALOFT : FST_STATE_SIZE); ++i)
+                other.step.end[place_of(i)] += h * d[c][i];
+            fst_bead_flow_restart(&other);
+            step_until(&other, from + piece);
+            for (int i = 0; i < ALOFT; ++i)
+                d[c][i] = (other.step.end[place_of(i)] - flow->step.end[place_of(i)]) / h;
+        }
+        orthonormal(d, exponents);
+    }
+    for (int c = 0; c < COLUMNS; ++c)
+        exponents[c] /= until - aligned;
+}
+
+/* In the air there are eleven directions, and a bead that comes down without staying loses none. */
+static void exponents_of_one_that_hardly_lands(void **unused)
+{
+    (void)unused;
+    fst_params params = flying(fst_default_params().friction_mu, 0.7, 350.0);
+    fst_family family;
+    fst_lyapunov l;
+    fst_error error;
+    fst_model *model;
+    fst_flow *flow;
+    double start[FST_STATE_SIZE], exponents[COLUMNS] = {0.0};
+    params.start_spin = FST_SPIN_REST;
+    params.start_r = 0.6;
+    params.model_kappa = 0.3;
+    if (fst_lyapunov_find(&params, NULL, &l, &error) != FST_OK)
+        fail_msg("%s", error.sentence);
+    if (fst_family_begin(&family, &params, NULL, &error) != FST_OK ||
+        fst_model_new(&params, &model, &error) != FST_OK ||
+        fst_start_state(&params, model, start, &error) != FST_OK ||
+        fst_solution_flow(&family, 0.0, start, 1e-12, &model, &flow, &error) != FST_OK)
+        fail_msg("%s", error.sentence);
+    const double period = FST_TWO_PI / model->groups.omega, from = fst_run_discard(&params) * period;
+    step_until(flow, from);
+    fst_exponent one = {.world = &model->world, .duration = 1.1 * l.time, .rtol = 1e-9}, *asked = &one;
+    memcpy(one.state, start, sizeof start);
+    if (fst_largest_exponents(NULL, &asked, 1, NULL, &error) != FST_OK)
+        fail_msg("%s", error.sentence);
+    exponents_beside(flow, from + 20.0 * period, from + 20.0 * period + l.time, exponents);
+    printf("one vector: %.4g +- %.2g\n", one.value, one.standard_error);
+    CHECK_CLOSE(l.exponents[0], one.value, 4.0 * (l.errors[0] + one.standard_error));
+    for (int c = 0; c < COLUMNS; ++c) {
+        printf("%d: %.4g +- %.2g, beside each other %.4g\n", c, l.exponents[c], l.errors[c], exponents[c]);
+        CHECK_CLOSE(l.exponents[c], exponents[c], 4.0 * l.errors[c]);
+    }
+    fst_flow_free(flow);
+    fst_model_free(model);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(multipliers_against_differences),
-                                       cmocka_unit_test(branch_through_lift_off),
-                                       cmocka_unit_test(exponents_of_hops)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(multipliers_against_differences), cmocka_unit_test(branch_through_lift_off),
+        cmocka_unit_test(exponents_of_hops), cmocka_unit_test(exponents_of_one_that_hardly_lands)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
