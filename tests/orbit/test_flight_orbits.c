@@ -285,8 +285,8 @@ static void exponents_of_one_that_hardly_lands(void **unused)
     fst_family family;
     fst_lyapunov l;
     fst_error error;
-    fst_model *model;
-    fst_flow *flow;
+    fst_model *first = NULL, *model = NULL;
+    fst_flow *flow = NULL;
     double start[FST_STATE_SIZE], exponents[COLUMNS] = {0.0};
     params.start_spin = FST_SPIN_REST;
     params.start_r = 0.6;
@@ -294,8 +294,8 @@ static void exponents_of_one_that_hardly_lands(void **unused)
     if (fst_lyapunov_find(&params, NULL, &l, &error) != FST_OK)
         fail_msg("%s", error.sentence);
     if (fst_family_begin(&family, &params, NULL, &error) != FST_OK ||
-        fst_model_new(&params, &model, &error) != FST_OK ||
-        fst_start_state(&params, model, start, &error) != FST_OK ||
+        fst_model_new(&params, &first, &error) != FST_OK ||
+        fst_start_state(&params, first, start, &error) != FST_OK ||
         fst_solution_flow(&family, 0.0, start, 1e-12, &model, &flow, &error) != FST_OK)
         fail_msg("%s", error.sentence);
     const double period = FST_TWO_PI / model->groups.omega, from = fst_run_discard(&params) * period;
@@ -313,6 +313,7 @@ static void exponents_of_one_that_hardly_lands(void **unused)
     }
     fst_flow_free(flow);
     fst_model_free(model);
+    fst_model_free(first);
 }
 
 int main(void)
