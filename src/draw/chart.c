@@ -471,6 +471,7 @@ fst_status fst_figure_chart(const char *out, const fst_chart *chart, fst_error *
     fst_status status = fst_figure_begin(&figure, out, &canvas, error);
     if (status != FST_OK)
         return status;
+    fst_figure_scene(&figure, chart->scene);
     write_data(&figure, chart);
     fst_figure_panels(&figure);
     if (chart->square)
@@ -531,6 +532,14 @@ const char *fst_chart_text(fst_chart *chart, const char *text)
     const size_t size = strlen(text) + 1;
     char *copy = fst_chart_keep(chart, size);
     return copy ? memcpy(copy, text, size) : NULL;
+}
+
+const char *fst_chart_scene(fst_chart *chart, const fst_params *params)
+{
+    char *scene = fst_scene_text(params, 0);
+    const char *copy = scene ? fst_chart_text(chart, scene) : NULL;
+    free(scene);
+    return copy;
 }
 
 void fst_chart_adopt(fst_chart *chart, fst_chart *other)

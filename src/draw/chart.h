@@ -17,6 +17,9 @@ fst_chart *fst_chart_new(void);
 void *fst_chart_keep(fst_chart *chart, size_t size);
 const char *fst_chart_text(fst_chart *chart, const char *text);
 
+/* The text of a scene, which belongs to the chart; NULL: there is no memory. */
+const char *fst_chart_scene(fst_chart *chart, const fst_params *params);
+
 /* Draw a chart with another title (NULL: its own) and in another size. */
 fst_status fst_figure_chart_as(const char *out, fst_chart *chart, const char *title, const double size[2],
                                fst_error *error);

@@ -138,6 +138,8 @@ fst_status fst_charts_over(fst_chart *const *charts, const char *const *names, i
         fst_chart_adopt(made, charts[i]);
         if (i == 0)
             begin(made, charts[0], about);
+        if (made->scene && !(charts[i]->scene && strcmp(made->scene, charts[i]->scene) == 0))
+            made->scene = NULL; /* each file has its own */
         status = lay_abscissa(made, charts[0], charts[i], error);
         if (status == FST_OK)
             good = take_chart(made, panels, &panel_count, charts[i], fst_chart_colour(i), names[i]);

@@ -291,6 +291,7 @@ static int put_words(painting *p, const fst_figure_options *options, const char 
         (void)snprintf(title, sizeof title, "Path of the bead %s", seen);
     p->chart->title = fst_chart_text(p->chart, options->title ? options->title : title);
     p->chart->about = fst_chart_text(p->chart, about);
+    p->chart->scene = fst_chart_scene(p->chart, &p->table->scene);
     p->chart->square = 1;
     p->chart->panel_count = 1;
     if (p->table->count > FST_BEADS_MOST)

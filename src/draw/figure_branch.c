@@ -498,6 +498,7 @@ static fst_status arrange(fst_chart *chart, const fst_branch *b, const shown *s,
     fst_chart_panel *panel = fst_chart_keep(chart, sizeof *panel);
     chart->title = fst_chart_text(chart, title);
     chart->about = about[0] ? fst_chart_text(chart, about) : NULL;
+    chart->scene = b->scene ? fst_chart_scene(chart, b->scene) : NULL;
     chart->x_label = fst_chart_text(chart, s->x.label);
     const char *y_label = fst_chart_text(chart, s->y.label);
     if (!panel || !chart->title || !chart->x_label || !y_label)

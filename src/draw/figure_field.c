@@ -146,6 +146,7 @@ fst_status fst_figure_field_map(const fst_params *params, const fst_field_option
         l.height = canvas.height;
         status = fst_figure_begin(&figure, out, &canvas, error);
         if (status == FST_OK) {
+            fst_figure_scene_of(&figure, params);
             write_data(&figure, &picture);
             write_script(&figure, &picture, &l);
             fst_legend_write(&figure, &legend, l.height);

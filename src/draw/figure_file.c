@@ -228,6 +228,27 @@ static void write_comment(FILE *out, const char *text)
     (void)fprintf(out, "# %s\n", line);
 }
 
+void fst_figure_scene(fst_figure_file *figure, const char *scene)
+{
+    if (scene)
+        write_comment(figure->script, "The scene:");
+    for (const char *line = scene; line && *line; line += strcspn(line, "\n"), line += *line == '\n') {
+        char text[256];
+        (void)snprintf(text, sizeof text, "%.*s", (int)fmin(sizeof text - 1, (double)strcspn(line, "\n")),
+                       line);
+        write_comment(figure->script, text);
+    }
+    if (scene)
+        (void)fputs("#\n", figure->script); /* a line that ends in "\" goes on here, and no further */
+}
+
+void fst_figure_scene_of(fst_figure_file *figure, const fst_params *params)
+{
+    char *scene = fst_scene_text(params, 0);
+    fst_figure_scene(figure, scene);
+    free(scene);
+}
+
 void fst_figure_block(fst_figure_file *figure, const char *name, const char *columns)
 {
     /* Two empty lines end a block.  `index` finds a block by the comment line right before it. */

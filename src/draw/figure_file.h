@@ -43,6 +43,12 @@ typedef struct fst_figure_file {
 fst_status fst_figure_begin(fst_figure_file *figure, const char *out, const fst_canvas *canvas,
                             fst_error *error);
 
+/* Write a scene into the script as comments, so that nothing of it is lost; NULL: none, or no memory for it. */
+void fst_figure_scene(fst_figure_file *figure, const char *scene);
+
+/* The same of parameters. */
+void fst_figure_scene_of(fst_figure_file *figure, const fst_params *params);
+
 /* Begin the data block that scripts address by `data index 'NAME'`, with a line that names its columns. */
 void fst_figure_block(fst_figure_file *figure, const char *name, const char *columns);
 

@@ -341,6 +341,7 @@ fst_status fst_chart_of_groups(const fst_beads_table *table, const fst_figure_op
     tell_end(&s, about + strlen(about), sizeof about - strlen(about));
     chart->title = fst_chart_text(chart, options->title ? options->title : title);
     chart->about = fst_chart_text(chart, about);
+    chart->scene = fst_chart_scene(chart, &table->scene);
     chart->x_label =
         table->scene.drive_waveform == FST_WAVEFORM_STEADY ? "turns of the magnet" : "periods of the drive";
     chart->x_low = s.x[0];

@@ -142,6 +142,7 @@ fst_status fst_chart_of_lag(const fst_beads_table *table, const fst_figure_optio
     chart->title =
         fst_chart_text(chart, options->title ? options->title : "Lag of the moment behind the field");
     chart->about = fst_chart_text(chart, part.about);
+    chart->scene = fst_chart_scene(chart, &table->scene);
     chart->x_label = "moment's angle less the field's (degrees)";
     choose_range(chart, x, curves[0].count);
     return chart->title && chart->about && panel->left_label

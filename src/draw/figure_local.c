@@ -65,6 +65,7 @@ fst_status fst_figure_local_n(const fst_table *table, const char *out, const fst
     status = fst_figure_begin(&figure, out, &canvas, error);
     if (status != FST_OK)
         return status;
+    fst_figure_scene_of(&figure, &table->params);
     write_data(&figure, &view, n_r, n_alpha, n_z);
     fst_figure_panels(&figure);
     fputs("set size ratio -1\n"

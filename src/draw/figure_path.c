@@ -122,6 +122,7 @@ static fst_status draw(const fst_view *view, const fst_path_picture *picture, co
     const fst_status status = fst_figure_begin(&figure, out, &canvas, error);
     if (status != FST_OK)
         return status;
+    fst_figure_scene_of(&figure, &view->table->params);
     write_data(&figure, picture);
     fst_figure_panels(&figure);
     write_frame(&figure, picture, &l);

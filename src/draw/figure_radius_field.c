@@ -92,7 +92,11 @@ static fst_status draw(const fst_view *view, const char *out, const fst_figure_o
                                  "3.141592654)",
                        .panels = &panel,
                        .panel_count = 1};
-    return fst_figure_chart_as(out, &chart, NULL, options->size, error);
+    char *scene = fst_scene_text(&view->table->params, 0);
+    chart.scene = scene;
+    status = fst_figure_chart_as(out, &chart, NULL, options->size, error);
+    free(scene);
+    return status;
 }
 
 fst_status fst_figure_radius_field(const fst_table *table, const char *out, const fst_figure_options *options,

@@ -55,6 +55,7 @@ static int dress(fst_chart *chart, const fst_view *view, const char *title, cons
 {
     chart->title = fst_chart_text(chart, view->title ? view->title : title);
     chart->about = fst_chart_text(chart, about);
+    chart->scene = fst_chart_scene(chart, &view->table->params);
     chart->x_label = fst_chart_text(chart, x_label);
     chart->panels = panels;
     chart->panel_count = c->count - first;

@@ -172,6 +172,7 @@ static int dress(drawing *d, const fst_sweep_axis *axis)
     fst_chart *chart = d->chart;
     chart->title = fst_chart_text(chart, title);
     chart->about = fst_chart_text(chart, d->about);
+    chart->scene = fst_chart_scene(chart, fst_grid_base(d->table->grid));
     chart->x_label = fst_chart_text(chart, axis->label);
     chart->x_tics = axis->choice ? fst_chart_text(chart, tics) : NULL;
     chart->x_logarithmic = axis->logarithmic;

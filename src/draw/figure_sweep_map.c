@@ -290,6 +290,7 @@ static fst_status draw(map *m, const fst_sweep_quantity *quantity, const fst_swe
     status = fst_figure_begin(&figure, out, &canvas, error);
     if (status != FST_OK)
         return status;
+    fst_figure_scene_of(&figure, fst_grid_base(m->table->grid));
     fst_figure_panels(&figure);
     const double frame[4] = {left, FST_FIGURE_WIDTH - RIGHT, top, top + frame_height};
     fst_figure_place(&figure, height, frame);

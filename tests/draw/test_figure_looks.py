@@ -105,6 +105,27 @@ class Looks(unittest.TestCase):
                     self.assertRegex(below[1], said.get(key, f"{key} {value}"))
             self.assertNotEqual(*below) if named else None
 
+    def test_the_script_has_the_whole_scene(self):
+        """Its comments are a scene that the program reads, and that says what the figure's scene said."""
+        for words, named in self.other:
+            with self.subTest(words[1:]):
+                self.draw(words)
+                script = (FOLDER / "f.gp").read_text(encoding="utf-8")
+                if "--points" in words:
+                    self.assertNotIn("# The scene:", script)  # it may be of several files, each with a scene of its own
+                    continue
+                scene = re.search(r"^# The scene:\n(.*?)^#$", script, re.MULTILINE | re.DOTALL)[1]
+                (FOLDER / "again.yaml").write_text("\n".join(line[2:] for line in scene.splitlines()) + "\n", encoding="utf-8")
+                status, _, messages = run("check", FOLDER / "again.yaml")
+                self.assertEqual(status, 0, messages)
+                for key, value in named.items():
+                    group, name = key.split(".")
+                    block = re.search(rf"^# {group}:\n((?:#   .*\n)*)", scene, re.MULTILINE)[1]
+                    self.assertRegex(block, rf"(?m)^#   {name}: {re.escape(value)}$")
+
+        self.draw(["plot", FOLDER / "usual-one.db", FOLDER / "other-one.db"])
+        self.assertNotIn("# The scene:", (FOLDER / "f.gp").read_text(encoding="utf-8"))
+
     def test_titles_stand_letter_by_letter(self):
         for words, _ in self.usual:
             with self.subTest(words):
