@@ -23,7 +23,9 @@
 #include "fit/film.h"
 #include "fit/film_slip.h"
 
-#define NOISE 1e-4 /* m, of a place, as long as it is not measured */
+#define NOISE 1e-4  /* m, of a place, as long as it is not measured */
+#define FAR_OFF 4.0 /* scatters from frame to frame, by which places lie off a path that is not theirs */
+enum { WINDOWS = 3 };
 
 /* Where the parts of the work end: measuring the track, fitting the three numbers of the film. */
 static const double MEASURED = 0.05, ROUGHLY_FITTED = 0.3;
@@ -101,13 +103,28 @@ static int reject_frames(fit_film *f, const double *r)
     return rejected;
 }
 
-/* Windows that grow, then once more without the frames that lie far off. */
-static fst_status search(fit_film *f, double *v, int *rejected, fst_error *error)
+/* How places scatter from frame to frame, by fourth differences, of which no smooth path is left; m. */
+static double jitter_of(const fit_film *f)
 {
-    static const double windows[] = {0.15, 0.4, 1.0};
+    double *sizes = malloc((size_t)f->frames * sizeof *sizes);
+    size_t count = 0;
+    for (int i = 4; i < f->frames && sizes; ++i) {
+        const double complex *z = f->z + i;
+        if (f->t[i] - f->t[i - 4] < 4.5 * (f->t[f->frames - 1] - f->t[0]) / (f->frames - 1)) /* no gap */
+            sizes[count++] = cabs(z[0] - 4.0 * z[-1] + 6.0 * z[-2] - 4.0 * z[-3] + z[-4]);
+    }
+    const double middle = count > 16 ? fst_median(sizes, count) : NAN;
+    free(sizes);
+    return middle / (1.1774 * sqrt(70.0)); /* the median of a Rayleigh distribution; the binomials' squares */
+}
+
+/* Windows that grow, from the unknowns v; *left: by how much places then lie off the path, in units of the noise. */
+static fst_status grow(fit_film *f, const double *windows, double *v, double *left, fst_error *error)
+{
     const double whole = f->t[f->frames - 1] - f->t[0];
+    double squares = 0.0;
     fst_status status = FST_OK;
-    for (int w = 0; w < 3 && status == FST_OK; ++w) {
+    for (int w = 0; w < WINDOWS && status == FST_OK; ++w) {
         for (f->used = 0; f->used < f->frames && f->t[f->used] - f->t[0] <= windows[w] * whole;)
             f->used += 1;
         if (w == 0)
@@ -115,6 +132,53 @@ static fst_status search(fit_film *f, double *v, int *rejected, fst_error *error
         if (status == FST_OK)
             status = fit_film_solve(f, v, NULL, error);
     }
+    double *r = calloc((size_t)fit_film_residual_count(f), sizeof *r);
+    if (!r)
+        return fst_fail(error, FST_NO_MEMORY, "fst_fit", "out of memory");
+    if (status == FST_OK)
+        status = fit_film_residuals(f, v, r, error);
+    for (int i = 0; i < 2 * f->used; ++i)
+        squares += r[i] * r[i];
+    *left = sqrt(squares / (2.0 * f->used));
+    free(r);
+    return status;
+}
+
+/* From a first window that was too short, or too long, the growth may follow a path that is not the film's, which places
+ * far off betray: then other windows are tried, and the nearer path is kept. */
+static fst_status find_path(fit_film *f, double *v, fst_error *error)
+{
+    static const double windows[][WINDOWS] = {{0.15, 0.4, 1.0}, {0.25, 0.5, 1.0}, {0.08, 0.3, 1.0}};
+    const double enough = FAR_OFF * jitter_of(f) / f->noise;
+    const size_t size = (size_t)fit_film_unknowns(f) * sizeof *v;
+    double least = INFINITY, start[FIT_MOST + FIT_NUISANCES], tried[FIT_MOST + FIT_NUISANCES];
+    double turn = 0.0, phase = 0.0;
+    double complex centre = 0.0;
+    memcpy(start, v, size);
+    fst_status status = FST_OK;
+    for (size_t way = 0; way < sizeof windows / sizeof *windows && status == FST_OK && !(least <= enough);
+         ++way) {
+        double left = INFINITY;
+        memcpy(tried, start, size);
+        status = grow(f, windows[way], tried, &left, error);
+        if (status == FST_OK && !(left >= least)) {
+            least = left;
+            turn = f->turn;
+            phase = f->phase;
+            centre = f->centre;
+            memcpy(v, tried, size);
+        }
+    }
+    f->turn = turn;
+    f->phase = phase;
+    f->centre = centre;
+    return status;
+}
+
+/* The path, then once more without the frames that lie far off. */
+static fst_status search(fit_film *f, double *v, int *rejected, fst_error *error)
+{
+    fst_status status = find_path(f, v, error);
     double *r = calloc((size_t)fit_film_residual_count(f), sizeof *r);
     if (!r)
         return fst_fail(error, FST_NO_MEMORY, "fst_fit", "out of memory");
@@ -172,21 +236,6 @@ static fst_status estimate(fit_film *f, const double *v, fit_estimate *e, double
     return status;
 }
 
-/* How places scatter from frame to frame, by fourth differences, of which no smooth path is left; m. */
-static double jitter_of(const fit_film *f)
-{
-    double *sizes = malloc((size_t)f->frames * sizeof *sizes);
-    size_t count = 0;
-    for (int i = 4; i < f->frames && sizes; ++i) {
-        const double complex *z = f->z + i;
-        if (f->t[i] - f->t[i - 4] < 4.5 * (f->t[f->frames - 1] - f->t[0]) / (f->frames - 1)) /* no gap */
-            sizes[count++] = cabs(z[0] - 4.0 * z[-1] + 6.0 * z[-2] - 4.0 * z[-3] + z[-4]);
-    }
-    const double middle = count > 16 ? fst_median(sizes, count) : NAN;
-    free(sizes);
-    return middle / (1.1774 * sqrt(70.0)); /* the median of a Rayleigh distribution; the binomials' squares */
-}
-
 /* What a person should doubt: what measure said of the track, and places that are farther from the path than their noise. */
 static fst_status doubt(const fit_film *f, const fst_measurement *seen, double left, fst_fit *fit,
                         fst_error *error)
@@ -195,7 +244,7 @@ static fst_status doubt(const fit_film *f, const fst_measurement *seen, double l
     const double jitter = jitter_of(f);
     for (int i = 0; i < seen->warning_count && status == FST_OK; ++i)
         status = fit_remark(fit, error, "%s", seen->warnings[i]);
-    if (status == FST_OK && left > 4.0 * jitter)
+    if (status == FST_OK && left > FAR_OFF * jitter)
         status = fit_remark(fit, error,
                             "places lie %.3g times as far from the model's path as they scatter from frame to "
                             "frame: the path is "
