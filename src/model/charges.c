@@ -410,7 +410,13 @@ fst_status fst_charges_fit(const fst_field_map *map, const fst_smoothing *how, c
             break;
         evidence = now.settled ? now.evidence : INFINITY;
     }
-    if (status == FST_OK && !now.settled)
+    if (status == FST_OK && !now.charges)
+        status =
+            fst_fail(error, FST_BAD_INPUT, PLACE,
+                     "the map of %d x %d samples is so long and narrow that too many charges would have to lie "
+                     "below it: smooth a part that is less so",
+                     facts.count[0], facts.count[1]);
+    else if (status == FST_OK && !now.settled)
         status = fst_fail(error, FST_BAD_INPUT, PLACE,
                           "the map does not tell how the probe was turned: its field has too little shape, or "
                           "columns or axes are exchanged");

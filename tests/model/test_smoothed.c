@@ -383,6 +383,14 @@ static void test_refusals(void **unused)
         assert_null(made);
         fst_field_map_free(map);
     }
+    static double narrow[300 * 8 * 3];
+    for (int k = 0; k < 300 * 8; ++k)
+        narrow[3 * k + 2] = 1e-3;
+    map = map_of_samples(&(fst_field_samples){{300, 8, 1}, {-0.15, -4e-3, NAN}, {1e-3, 1e-3, 0.0}, narrow});
+    const fst_smoothing usual = {NAN, 0, 0.02, 0.02};
+    assert_int_equal(fst_field_map_smooth(map, &usual, NULL, &made, &error), FST_BAD_INPUT);
+    CHECK_CONTAINS(error.sentence, "long and narrow");
+    fst_field_map_free(map);
     map = map_of_samples(&samples); /* an even field is one, in the smallest map */
     assert_int_equal(fst_field_map_smooth(map, &(fst_smoothing){NAN, 0, 0.02, 0.02}, NULL, &made, &error),
                      FST_OK);
