@@ -91,12 +91,62 @@ static void hopf_points_agree_between_orbits_and_equilibria(void **state)
     fst_branch_free(&equilibria);
 }
 
+/* Over two blocks orbits that rest turn round where the greatest multiplier passes 1.  Their multipliers are known to
+ * 1e-7 alone, and the point must not be lost in that. */
+static void a_fold_of_orbits_that_rest(void **state)
+{
+    (void)state;
+    static const char *const keys[][2] = {{"friction.law", "coulomb"},
+                                          {"friction.mu", "0.15"},
+                                          {"bead.radius", "2.5mm"},
+                                          {"bead.mass", "0.5g"},
+                                          {"bead.remanence", "1.2"},
+                                          {"magnet.shape", "parts"},
+                                          {"magnet.depth", "16.2mm"},
+                                          {"magnet.parts[0].kind", "cuboid"},
+                                          {"magnet.parts[0].centre[0]", "21.5mm"},
+                                          {"magnet.parts[0].size[0]", "13mm"},
+                                          {"magnet.parts[0].size[1]", "40mm"},
+                                          {"magnet.parts[0].size[2]", "9mm"},
+                                          {"magnet.parts[0].remanence[2]", "0.567"},
+                                          {"magnet.parts[1].kind", "cuboid"},
+                                          {"magnet.parts[1].centre[0]", "-21.5mm"},
+                                          {"magnet.parts[1].size[0]", "13mm"},
+                                          {"magnet.parts[1].size[1]", "40mm"},
+                                          {"magnet.parts[1].size[2]", "9mm"},
+                                          {"magnet.parts[1].remanence[2]", "-0.567"}};
+    fst_params params = fst_default_params();
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; ++i)
+        assert_int_equal(fst_params_set(&params, keys[i][0], keys[i][1], NULL), FST_OK);
+    fst_branch_options o = over_omega(FST_BRANCH_COUNTER, 14.0, 14.6);
+    o.key = "drive.frequency";
+    fst_branch b = followed(&params, &o);
+    const fst_special *fold = NULL;
+    for (size_t i = 0; i < b.special_count; ++i)
+        if (b.specials[i].type == FST_SPECIAL_FOLD && b.specials[i].value < 14.1)
+            fold = &b.specials[i];
+    assert_non_null(fold);
+    /* The branch comes from above and goes back up: of the neighbouring points one is unstable by a multiplier above 1,
+     * the other stable. */
+    size_t least = 0;
+    for (size_t i = 1; i < b.point_count; ++i)
+        if (b.points[i].branch == fold->branch && b.points[i].mean_r > 0.785 &&
+            fabs(b.points[i].value - fold->value) < fabs(b.points[least].value - fold->value))
+            least = i;
+    assert_true(least > 0 && least + 1 < b.point_count);
+    assert_true(b.points[least].value >= fold->value);
+    assert_true(b.points[least - 1].value > fold->value && b.points[least + 1].value > fold->value);
+    assert_int_not_equal(b.points[least - 1].stable, b.points[least + 1].stable);
+    fst_branch_free(&b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(specials_do_not_depend_on_tolerances),
         cmocka_unit_test(branches_do_not_jump),
         cmocka_unit_test(hopf_points_agree_between_orbits_and_equilibria),
+        cmocka_unit_test(a_fold_of_orbits_that_rest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
