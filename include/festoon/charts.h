@@ -82,7 +82,7 @@ typedef struct fst_chart_mark {
 
 typedef struct fst_chart {
     const char *title, *about; /* what is shown, and of what (NULL: no more) */
-    const char *scene;         /* the whole scene, for whoever reads the script; NULL: none */
+    const char *scene;         /* its text is written into the script as comments; NULL: there is none */
     double size[2]; /* of the figure, width and height in m; 0: 0.127, and as high as it needs.  Letters
                                   grow with the width; a PNG has 192 pixels an inch */
     const char *x_label;
