@@ -26,17 +26,11 @@ static void print_text(FILE *out, const char *path, const fst_model *model, cons
 static void print_map(FILE *out, const fst_field_map *map)
 {
     const fst_field_map_facts facts = fst_field_map_describe(map);
-    (void)fprintf(
-        out,
-        "\nMap: %d x %d x %d samples, %.4g mm and %.4g mm apart, known to %.4g mm from the axis, |B| "
-        "up to %.4g "
-        "mT\n  curl (dBx/dy - dBy/dx, rms, over all derivatives): %.2g%s\n",
-        facts.count[0], facts.count[1], facts.count[2], 1e3 * facts.spacing[0], 1e3 * facts.spacing[1],
-        1e3 * facts.radius, 1e3 * facts.greatest, facts.curl,
-        facts.curl > 0.1
-            ? "; a magnet's field has none: much noise (festoon field --smooth), or columns or axes exchanged?"
-        : facts.curl > 1e-3 ? "; festoon field --smooth fits a field without curl"
-                            : "");
+    (void)fprintf(out,
+                  "\nMap: %d x %d x %d samples, %.4g mm and %.4g mm apart, known to %.4g mm from the axis, |B| "
+                  "up to %.4g mT\n  curl (dBx/dy - dBy/dx, rms, over all derivatives): %.2g\n",
+                  facts.count[0], facts.count[1], facts.count[2], 1e3 * facts.spacing[0],
+                  1e3 * facts.spacing[1], 1e3 * facts.radius, 1e3 * facts.greatest, facts.curl);
 }
 
 fst_status check_world(const fst_params *scene, fst_error *error)

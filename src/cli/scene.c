@@ -6,21 +6,52 @@
 #include "cli/command.h"
 #include "cli/terminal.h"
 
-/* Apply KEY=VALUE; blanks about the key are removed. */
-static fst_status apply_set(const char *text, fst_params *params, fst_error *error)
+typedef char key_text[96];
+
+/* The key of KEY=VALUE, without the blanks about it. */
+static void key_of(const char *text, key_text key)
 {
-    char key[96];
     size_t length = strcspn(text, "=");
-    if (text[length] != '=')
-        return fail(error, FST_BAD_INPUT, "--set", "\"%.60s\" must be KEY=VALUE, as in drive.frequency=10.7Hz",
-                    text);
-    size_t start = strspn(text, " \t");
+    const size_t start = strspn(text, " \t");
     while (length > start && (text[length - 1] == ' ' || text[length - 1] == '\t'))
         --length;
-    (void)snprintf(key, sizeof key, "%.*s", start < length ? (int)(length - start) : 0, text + start);
+    (void)snprintf(key, sizeof(key_text), "%.*s", start < length ? (int)(length - start) : 0, text + start);
+}
+
+/* Apply KEY=VALUE. */
+static fst_status apply_set(const char *text, fst_params *params, fst_error *error)
+{
+    key_text key;
+    if (!strchr(text, '='))
+        return fail(error, FST_BAD_INPUT, "--set", "\"%.60s\" must be KEY=VALUE, as in drive.frequency=10.7Hz",
+                    text);
+    key_of(text, key);
     fst_status status = fst_params_set(params, key, strchr(text, '=') + 1, error);
     if (status != FST_OK)
         (void)snprintf(error->where, sizeof error->where, "--set");
+    return status;
+}
+
+/* Apply each --set.  One of them replaces what the scene gives, in whichever form, but two that give one quantity
+ * are a mistake: the second would win in silence. */
+static fst_status apply_sets(const arguments *given, fst_params *params, fst_error *error)
+{
+    fst_status status = FST_OK;
+    for (int i = 0; i < given->option_count && status == FST_OK; ++i) {
+        if (strcmp(given->options[i].row->name, "set") == 0)
+            status = apply_set(given->options[i].value, params, error);
+        for (int k = 0; k < i && status == FST_OK; ++k) {
+            key_text one, two;
+            if (strcmp(given->options[i].row->name, "set") != 0 ||
+                strcmp(given->options[k].row->name, "set") != 0)
+                continue;
+            key_of(given->options[k].value, one);
+            key_of(given->options[i].value, two);
+            if (fst_params_clash(params, one, two))
+                status =
+                    fail(error, FST_BAD_INPUT, "--set", "%s and %s give the same quantity: keep one", one, two);
+        }
+    }
     return status;
 }
 
@@ -74,18 +105,30 @@ static fst_status read_map(const arguments *given, fst_params *params, fst_error
     progress_begin(&line);
     const fst_status status = fst_params_read_map(params, &progress, given->map, error);
     progress_end(&line);
+    const char *doubt = status == FST_OK && *given->map ? doubt_of_map(*given->map) : NULL;
+    if (doubt)
+        (void)fprintf(stderr, "festoon: warning: the map of magnet.file has a curl of %.2g: %s\n",
+                      fst_field_map_describe(*given->map).curl, doubt);
     return status;
+}
+
+/* Whether a sweep varies a key. */
+static int varies(const arguments *given, const char *key)
+{
+    const size_t length = strlen(key);
+    for (int i = 0; i < given->option_count; ++i)
+        if (strcmp(given->options[i].row->name, "over") == 0 &&
+            strncmp(given->options[i].value, key, length) == 0 && given->options[i].value[length] == '=')
+            return 1;
+    return 0;
 }
 
 /* Refuse what has no effect; static friction that a sweep varies counts as given. */
 static fst_status check_effects(const arguments *given, const fst_params *params, fst_error *error)
 {
-    static const char varied[] = "friction.mu_static=";
     fst_params asked = *params;
-    for (int i = 0; i < given->option_count; ++i)
-        if (strcmp(given->options[i].row->name, "over") == 0 && isnan(asked.friction_mu_static) &&
-            strncmp(given->options[i].value, varied, strlen(varied)) == 0)
-            asked.friction_mu_static = asked.friction_mu;
+    if (isnan(asked.friction_mu_static) && varies(given, "friction.mu_static"))
+        asked.friction_mu_static = asked.friction_mu;
     return fst_params_check_effects(&asked, error);
 }
 
@@ -94,25 +137,22 @@ fst_status read_scene(const arguments *given, const char *path, fst_params *para
     char doubt[512];
     *params = fst_default_params();
     if (path) {
-        fst_status status = strcmp(path, "-") == 0 ? read_scene_from_input(params, given->beads, error)
-                                                   : fst_scene_read_beads(path, params, given->beads, error);
+        const fst_status status = strcmp(path, "-") == 0
+                                      ? read_scene_from_input(params, given->beads, error)
+                                      : fst_scene_read_beads(path, params, given->beads, error);
         if (status != FST_OK)
             return status;
         if (strcmp(path, "-") != 0)
             warn_of_empty(path);
     }
-    for (int i = 0; i < given->option_count; ++i) {
-        if (strcmp(given->options[i].row->name, "set") != 0)
-            continue;
-        fst_status status = apply_set(given->options[i].value, params, error);
-        if (status != FST_OK)
-            return status;
-    }
-    if (isnan(params->run_duration))
+    fst_status status = apply_sets(given, params, error);
+    if (status != FST_OK)
+        return status;
+    if (isnan(params->run_duration) && !varies(given, "run.periods") && !varies(given, "run.duration"))
         params->run_discard = fst_run_discard(params); /* what is printed is what is done */
     if (fst_params_bare_number(params, doubt, sizeof doubt))
         (void)fprintf(stderr, "festoon: warning: %s\n", doubt);
-    const fst_status status = check_effects(given, params, error);
+    status = check_effects(given, params, error);
     if (status != FST_OK) {
         (void)snprintf(error->where, sizeof error->where, "%s", path ? path : "");
         return status;

@@ -11,10 +11,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LEAST_SIDE = 24, ROUNDS = 8, MOST_PIXELS = 60000 };
+enum { LEAST_SIDE = 24, ROUNDS = 8, MOST_PIXELS = 60000, FIELD = 32 };
 
 #define CLOSE 0.005     /* pixels: the search ends */
 #define LEAST_SURE 0.08 /* pixels: a shift that is known worse is not known */
+#define MOST_APART 2.0  /* pixels: halves that differ by more do not see one shift */
 #define MOST_ROLL 0.2   /* rad: a search that comes so far is lost */
 
 int follow_shake_begin(follow_shake *shake, const float *level, int width, int height, int margin)
@@ -65,6 +66,13 @@ static float between(const float *level, int width, float column, float row)
     return (1.0f - q) * ((1.0f - p) * at[0] + p * at[1]) + q * ((1.0f - p) * at[width] + p * at[width + 1]);
 }
 
+/* Whether a pixel of a level is in the half that is compared; a field of the chequerboard is wider than a block of the
+ * film's compression, whose noise is alike. */
+static int compared(const follow_shake *shake, int k, int row, int column)
+{
+    return shake->half == 0 || 1 + ((((row << k) / FIELD) + ((column << k) / FIELD)) & 1) == shake->half;
+}
+
 /* The equations for the next step of a shift. */
 typedef struct equations {
     double xx, xy, yy, x, y;
@@ -87,6 +95,8 @@ static void gather(const follow_shake *shake, int k, const double shift[2], equa
     *e = (equations){.size = size};
     for (int row = top; row < bottom; ++row)
         for (int column = left + row % stride; column < right; column += stride) {
+            if (!compared(shake, k, row, column))
+                continue;
             const float *at = picture + row * width + column;
             const double gx = 0.5 * (double)(at[1] - at[-1]), gy = 0.5 * (double)(at[width] - at[-width]);
             const double off =
@@ -191,7 +201,8 @@ static double improve_roll(const follow_shake *shake, int k, const double shift[
             const double x = column - middle[0], y = row - middle[1];
             const double at[2] = {column + ldexp(shift[0], -k) - *roll * y,
                                   row + ldexp(shift[1], -k) + *roll * x};
-            if (!(at[0] >= 0.0 && at[1] >= 0.0 && at[0] < width - 1.001 && at[1] < height - 1.001))
+            if (!(at[0] >= 0.0 && at[1] >= 0.0 && at[0] < width - 1.001 && at[1] < height - 1.001) ||
+                !compared(shake, k, row, column))
                 continue;
             const float *here = shake->picture[k] + row * width + column;
             const double slope = 0.5 *
@@ -219,6 +230,24 @@ double follow_shake_roll(const follow_shake *shake, const double shift[2])
             sure = improve_roll(shake, k, shift, &size, &roll);
     }
     return fabs(roll) < MOST_ROLL && sure * 0.5 * shake->width[0] < LEAST_SURE ? roll : NAN;
+}
+
+void follow_shake_squares(follow_shake *shake, const double shift[2], double *moved, double *turned)
+{
+    double found[2][2], angle[2], sure[2], apart = 0.0;
+    for (int i = 0; i < 2; ++i) {
+        shake->half = i + 1;
+        memcpy(found[i], shift, sizeof found[i]);
+        sure[i] = improve(shake, 0, found[i]);
+        angle[i] = follow_shake_roll(shake, shift);
+        apart = fmax(apart, hypot(found[i][0] - shift[0], found[i][1] - shift[1]));
+    }
+    shake->half = 0;
+    if (isinf(sure[0]) || isinf(sure[1])) /* all that can be seen lies in one half */
+        *moved = 0.5 * (shift[0] * shift[0] + shift[1] * shift[1]);
+    else
+        *moved = apart < MOST_APART ? 0.5 * (found[0][0] * found[1][0] + found[0][1] * found[1][1]) : 0.0;
+    *turned = isnan(angle[0]) || isnan(angle[1]) ? 0.0 : angle[0] * angle[1];
 }
 
 void follow_shake_undo(const follow_shake *shake, const float *gains, const double shift[2],

@@ -249,16 +249,17 @@ static comparison compare_samples(follow_still *s, follow_shake *shake, double l
         unsigned char *sample = s->samples + (size_t)k * (size_t)s->width * (size_t)s->height;
         const double alike =
             follow_shake_find(shake, sample, s->gains + (size_t)k * (size_t)s->height, shifts[k]);
-        const double roll = follow_shake_roll(shake, shifts[k]);
-        turns += isnan(roll) ? 0.0 : roll * roll / s->count;
+        double moved, turned;
+        follow_shake_squares(shake, shifts[k], &moved, &turned);
+        turns += turned / s->count;
         c.found += !isnan(alike);
         c.alike += alike > ALIKE;
-        squares += shifts[k][0] * shifts[k][0] + shifts[k][1] * shifts[k][1];
+        squares += moved;
         c.most = fmax(c.most, fmax(fabs(shifts[k][0]), fabs(shifts[k][1])));
     }
-    c.roll = sqrt(turns);
+    c.roll = sqrt(fmax(0.0, turns));
     if (c.found > s->count * 3 / 4)
-        c.moved = sqrt(0.5 * squares / c.found);
+        c.moved = sqrt(fmax(0.0, squares / c.found));
     if (!(c.moved > least))
         return c;
     s->margin += (int)ceil(c.most);

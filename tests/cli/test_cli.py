@@ -299,6 +299,20 @@ class Scenes(Case):
         self.assertEqual(changed["groups"]["eps"], 0.1)
         self.assertEqual(changed["groups"]["kappa"], 1.25)
 
+    def test_two_settings_of_one_quantity(self):
+        """Every pair of forms that the schema names, in either order; the same key again is no contradiction."""
+        keys = {key["key"]: key for key in json.loads(self.good("schema", "--json"))}
+        forms = {name: key["other_form"] for name, key in keys.items() if key["other_form"]}
+        self.assertGreater(len(forms), 10)
+        for one, two in [*forms.items(), ("start.r", "start.position[0]"), ("start.position[1]", "start.phi")]:
+            if "model.kappa" in (one, two):
+                continue  # with lines, B0 alone is no other form of it
+            with self.subTest(one=one):
+                values = [max(0.01, keys.get(name, {}).get("min") or 0) for name in (one, two)]
+                self.bad(["check", "--set", f"{one}={values[0]}", "--set", f" {two} ={values[1]}"], one, two, "same quantity")
+        twice = self.json("check", "--set", "drive.frequency=11", "--set", "drive.frequency=12")
+        self.assertEqual(twice["scene"]["drive.frequency"], 12)
+
     def test_init_and_check(self):
         path = self.path("made.yaml")
         self.good("init", path)

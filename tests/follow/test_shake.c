@@ -128,6 +128,43 @@ static void rolls(void **state)
     }
 }
 
+/* Of a camera that stands still the products of both halves cancel over many noisy frames, where the squares of the
+ * shifts add up; of one that moved and turned they are its squares. */
+static void halves_of_a_chequerboard(void **state)
+{
+    (void)state;
+    enum { FRAMES = 40 };
+    uint64_t chance = 5;
+    const texture t = make_texture(&chance, 1.5);
+    const double still[2] = {0.0, 0.0}, moved[2] = {1.5, -2.0}, roll = 0.01;
+    double squares = 0.0, products = 0.0, turns = 0.0, product, turned;
+    follow_shake shake;
+    for (int i = 0; i < WIDTH * HEIGHT; ++i)
+        picture[i] = (float)level_at(&t, i % WIDTH, i / WIDTH);
+    for (int row = 0; row < HEIGHT; ++row)
+        gains[row] = 1.0f;
+    assert_true(follow_shake_begin(&shake, picture, WIDTH, HEIGHT, 4));
+    for (int k = 0; k < FRAMES; ++k) {
+        double found[2] = {0.0, 0.0};
+        film(&t, still, 0.0, 1.0, 12.0, &chance);
+        (void)follow_shake_find(&shake, frame, gains, found);
+        follow_shake_squares(&shake, found, &product, &turned);
+        squares += 0.5 * (found[0] * found[0] + found[1] * found[1]) / FRAMES;
+        products += product / FRAMES;
+        turns += turned / FRAMES;
+    }
+    print_message("still: mean square %.2e, of products %.2e; of angles %.2e\n", squares, products, turns);
+    assert_true(squares > 0.0 && fabs(products) < 0.5 * squares);
+    double found[2] = {0.0, 0.0};
+    film(&t, moved, roll, 1.0, 3.0, &chance);
+    (void)follow_shake_find(&shake, frame, gains, found);
+    follow_shake_squares(&shake, found, &product, &turned);
+    print_message("moved: %.4f of 3.125, turned %.3e of %.3e\n", product, turned, roll * roll);
+    CHECK_CLOSE(product, 3.125, 0.3);
+    CHECK_CLOSE(turned, roll * roll, 0.1 * roll * roll);
+    follow_shake_end(&shake);
+}
+
 static void plain_pictures(void **state)
 {
     (void)state;
@@ -153,6 +190,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shifts),
         cmocka_unit_test(rolls),
+        cmocka_unit_test(halves_of_a_chequerboard),
         cmocka_unit_test(plain_pictures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

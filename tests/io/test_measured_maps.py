@@ -86,7 +86,11 @@ class Program(Maps):
         self.assertTrue(0 < check["map"]["curl"] < 1e-2, check["map"])
         self.assertIn("curl", self.good("check", *grid))
         turned = self.write("turned.csv", "\n".join(self.lines).replace("Bx", "B?").replace("By", "Bx").replace("B?", "By"))
-        self.assertIn("exchanged?", self.good("check", *self.over(turned)))
+        for words in (["check"], ["run", *SHORT], ["field", "--at", "0,0"]):
+            told = festoon(*words, *self.over(turned))[2]
+            self.assertIn("warning: the map of magnet.file has a curl", told)
+            self.assertIn("exchanged?", told)
+            self.assertNotIn("exchanged?", festoon(*words, *grid)[2])
 
     def test_its_poles_are_drawn(self):
         """Pictures of a measured field have the lines where B_z is half of its greatest, upwards and downwards; where
@@ -262,7 +266,7 @@ class Smooth(Maps):
         self.assertEqual({len(line.split(",")) for line in lines[2:]}, {10})
         self.assertEqual(len(lines), 3 + len(self.rows))
         self.assertLess(json.loads(self.good("check", *self.over(name), "--json"))["map"]["curl"], 1e-3)
-        self.assertIn("--smooth", self.good("check", *self.over(self.noisy)))
+        self.assertIn("--smooth", festoon("check", *self.over(self.noisy))[2])
         run = json.loads(self.good("run", *self.over(name, *SHORT), "--json"))
         exact = json.loads(self.good("run", *B0, *SHORT, "--json"))
         self.assertAlmostEqual(run["mean_r"], exact["mean_r"], delta=0.01 * exact["mean_r"])
