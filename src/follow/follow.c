@@ -389,7 +389,7 @@ static fst_status find_turning(tracking *t, const fst_progress *progress, fst_tr
     return status;
 }
 
-/* Where no scale was found, the picture and the overlay show why: they are written all the same. */
+/* Where no scale or no bead was found, the picture and the overlay show why: they are written all the same. */
 static void show_what_was_found(tracking *t)
 {
     if (finish_overlay(t, NULL) == FST_OK)
@@ -403,6 +403,13 @@ static fst_status perform(tracking *t, fst_track *track, fst_error *error)
     fst_part parts[2] = {{o->progress, 0.4, turns ? 0.6 : 1.0, "frames"}, {o->progress, 0.6, 1.0, "turning"}};
     const fst_progress told = {&parts[0], fst_part_tell}, turning_told = {&parts[1], fst_part_tell};
     fst_status status = begin(t, error);
+    if (status == FST_BAD_INPUT && t->still.level &&
+        o->picture) { /* what there was to be seen, before any frame */
+        if (follow_overlay_begin(&t->overlay, &t->still, &t->look, 1.0, 1, t->beads, NULL, o->picture, NULL) ==
+            FST_OK)
+            show_what_was_found(t);
+        return status;
+    }
     if (status == FST_OK && turns)
         status = follow_turning_begin(&t->turning, t->look.diameter, error);
     if (status != FST_OK)
@@ -417,13 +424,12 @@ static fst_status perform(tracking *t, fst_track *track, fst_error *error)
         status = fst_fail(error, FST_BAD_INPUT, t->path, "%s in none of its %d frames",
                           t->beads == 1 ? "the bead was found" : "all beads were found apart from each other",
                           t->frames);
+    else if (status == FST_OK)
+        status = make_plane(t, error);
+    if (status == FST_BAD_INPUT)
+        show_what_was_found(t);
     if (status != FST_OK)
         return status;
-    status = make_plane(t, error);
-    if (status != FST_OK) {
-        show_what_was_found(t);
-        return status;
-    }
     status = tell_times(t, error);
     for (int bead = 0; bead < t->beads && status == FST_OK; ++bead)
         status = make_track(t, bead, &track[bead], error);
