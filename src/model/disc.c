@@ -76,6 +76,26 @@ double fst_disc_hold(const fst_world_double *c, const fst_modes_double *m, const
     return left_over(c, &at, c->law.coulomb.holding, &slip, &pivot);
 }
 
+/* The curve is that of (tau, m) where tau slip + m pivot is greatest, for every slip and pivot (both are derivatives
+ * of one potential): across (slip, pivot) its place does not change. */
+double fst_disc_hold_change(const fst_world_double *c, const fst_contact_double *at,
+                            const fst_contact_double *by)
+{
+    const fst_coulomb_double *law = &c->law.coulomb;
+    const double load = fst_coulomb_load_double(at), a = fst_patch_radius_double(&law->patch, load);
+    const double da = fst_patch_radius_by_load_double(&law->patch, load, a) * by->load;
+    const double *push = at->push, torque = at->torque[2];
+    double slip, pivot;
+    (void)left_over(c, at, law->holding, &slip, &pivot);
+    const fst_shares_double shares = fst_hertz_shares_double(slip, pivot);
+    const double tau = slip * shares.grip, m = shares.twist, across = tau * slip + m * pivot;
+    const double dforce =
+        c->share * (push[0] * by->push[0] + push[1] * by->push[1]) / (fst_norm_2_double(push) + 1e-290);
+    const double dtorque = ((torque < 0 ? -by->torque[2] : by->torque[2]) - fabs(torque) * da / a) / a;
+    return (law->holding * by->load * across - dforce * slip - dtorque * pivot) * sqrt(tau * tau + m * m) /
+           across;
+}
+
 int fst_disc_rests(const fst_world_double *c, const fst_modes_double *m, const double *state,
                    const fst_pull_double *p)
 {

@@ -11,6 +11,10 @@ double fst_disc_slow_2(double rtol);
 double fst_disc_hold(const fst_world_double *c, const fst_modes_double *m, const double *state,
                      const fst_pull_double *p);
 
+/* Its change, where it is 0, as the contact of a bead that is held changes by `by`. */
+double fst_disc_hold_change(const fst_world_double *c, const fst_contact_double *at,
+                            const fst_contact_double *by);
+
 /* Whether a bead is so slow that it is to be held. */
 int fst_disc_rests(const fst_world_double *c, const fst_modes_double *m, const double *state,
                    const fst_pull_double *p);

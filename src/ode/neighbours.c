@@ -14,7 +14,8 @@
  * differences at equal times of |V| and of its direction become large against |V| itself; at equal theta they
  * die with it.  So a tangent vector keeps its dt until the slip is over or the way ends.
  *
- * A disc that neither slips nor pivots is not known here: fst_neighbours_known().
+ * A disc that is held (model/disc.c) has lost its pivoting too, which the plate's torque takes out; it lets go as if
+ * static friction were stronger.
  *
  * Where the mode changes (w: what sticks or slips before, f: after):
  *
@@ -57,6 +58,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "model/disc.h"
 #include "model/tangent.inl"
 #include "ode/flight.h"
 
@@ -160,7 +162,8 @@ static void slip_of(const fst_neighbours *b, const fst_world_double *c, const do
     fst_slip_double(c, seen, slip);
 }
 
-/* Take the slip out of all neighbours, as the plate's impulse does: the moment about the contact stays. */
+/* Take the slip, and of a disc the pivoting, out of all neighbours, as the plate's impulse does: the moment about
+ * the contact stays. */
 static void stop_slips(fst_neighbours *b, const fst_world_double *c, const double *y)
 {
     for (int column = 0; column < b->count; ++column) {
@@ -173,6 +176,8 @@ static void stop_slips(fst_neighbours *b, const fst_world_double *c, const doubl
         slip_of(b, c, y, column, slip); /* what rounding left */
         d[FST_VX] -= slip[0];
         d[FST_VY] -= slip[1];
+        if (c->kinds.patch)
+            d[FST_WZ] = 0.0;
     }
 }
 
@@ -285,6 +290,8 @@ static double grip(const fst_world_double *c, const fst_modes_double *m, const d
 {
     fst_pull_double p;
     fst_magnetic_pull_double(c, m, y, &p);
+    if (c->kinds.patch)
+        return fst_disc_hold(c, m, y, &p);
     const fst_contact_double at = fst_contact_of_double(c, m, y, &p);
     return fst_grip_double(&at, c->yielding, c->law.coulomb.holding, 0.0);
 }
@@ -294,13 +301,15 @@ static double grip_change(const fst_world_double *c, const fst_modes_double *m, 
 {
     fst_linear_double l;
     double f[FST_STATE_SIZE], force[3], turning[3], twist[3], torque[3];
-    fst_contact_double by;
+    fst_contact_double by = {.slip = {0.0}};
     fst_linearise_double(c, m, omega, y, &l, f);
     fst_pull_change_double(c, &l, y, along, force, turning);
     by.load = l.contact.load > 0 ? -force[2] : 0.0;
     fst_cross_double(along + FST_NX, l.at.b, twist);
     fst_cross_double(y + FST_NX, turning, torque);
     fst_dry_change_double(c, &l, y, along, force, twist, torque, &by);
+    if (c->kinds.patch)
+        return fst_disc_hold_change(c, &l.contact, &by);
     const double *a = l.contact.push;
     return c->yielding * c->law.coulomb.holding * by.load -
            (a[0] * by.push[0] + a[1] * by.push[1]) / fst_norm_2_double(a);
@@ -568,14 +577,6 @@ void fst_neighbours_start(fst_neighbours *b, const fst_flow *flow)
         stop_rolling(b, c);
     if (fst_sticks_double(c, fst_flow_modes(flow)) > 0.5 || fst_contact_mode(flow) == FST_MODE_ONSET)
         stop_slips(b, c, flow->step.y);
-}
-
-int fst_neighbours_known(const fst_flow *flow)
-{
-    const fst_world_double *c = fst_flow_world(flow);
-    const int now = fst_contact_mode(flow), next = flow->contact.slip.next;
-    const int held = c->kinds.patch && (now == FST_MODE_STICK || next == FST_MODE_STICK);
-    return !held;
 }
 
 void fst_neighbours_follow(fst_neighbours *b, const fst_flow *flow)

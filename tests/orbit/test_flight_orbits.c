@@ -1,4 +1,4 @@
-/* Orbits on which the bead flies: multipliers against the eigenvalues of the return by central differences of the
+/* Orbits on which the bead flies, or a disc of contact is held: multipliers against the eigenvalues of the return by central differences of the
  * flow; branches from orbits that stay on the plate to orbits that do not; exponents of two programs,
  * and of runs beside each other.
  * tests: orbit/dry_carry.c ode/neighbours.c orbit/spectrum.c orbit/curve.c study/exponent.c orbit/lyapunov.c */
@@ -9,6 +9,7 @@
 
 #include "ode/flight.h"
 #include "orbit/describe.h"
+#include "orbit/search.h"
 #include "study/exponent.h"
 
 static fst_params flying(double mu, double restitution, double hertz)
@@ -316,10 +317,50 @@ static void exponents_of_one_that_hardly_lands(void **unused)
     fst_model_free(first);
 }
 
+/* A disc that is held loses slip and pivoting, three directions, and lets go when the push and torque on it ask for
+ * it: multipliers over a return with both against differences, and the greatest exponent of a run against them. */
+static void orbits_of_held_discs(void **unused)
+{
+    (void)unused;
+    static const double cases[][4] = {{0.2, 0.24, 15.0, 3e-3}, {0.5, 0.6, 15.0, 3e-3}, {0.3, 0.4, 30.0, 4e-3}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+        fst_params params = flying(cases[k][0], NAN, cases[k][2]);
+        fst_family family;
+        fst_solution s;
+        fst_description d;
+        fst_orbit_outcome outcome;
+        fst_error error;
+        double re[FST_TANGENT_SIZE], im[FST_TANGENT_SIZE], off = 0.0, greatest = 0.0;
+        int lost = 0;
+        params.friction_mu_static = cases[k][1];
+        params.contact_patch = FST_PATCH_HERTZ;
+        params.contact_radius = cases[k][3];
+        if (fst_family_begin(&family, &params, NULL, &error) != FST_OK ||
+            fst_search_orbit(&family, &s, &outcome, &error) != FST_OK ||
+            fst_solution_spectrum(&family, &s, &error) != FST_OK ||
+            fst_describe_orbit(&family, &s, 0, &d, &error) != FST_OK)
+            fail_msg("%s", error.sentence);
+        by_differences(&s, &family, re, im);
+        for (int i = 0; i < s.multipliers; ++i) {
+            double nearest = INFINITY;
+            for (int j = 0; j < FST_TANGENT_SIZE; ++j)
+                nearest = fmin(nearest, hypot(s.re[i] - re[j], s.im[i] - im[j]));
+            off = fmax(off, nearest);
+            lost += s.re[i] == 0.0 && s.im[i] == 0.0;
+            greatest = fmax(greatest, hypot(s.re[i], s.im[i]));
+        }
+        printf("disc, mu %g, %g Hz: sticks %.3g, residual %.2g, trivial error %.2g, greatest %.6g, %d lost, "
+               "off by %.2g\n",
+               cases[k][0], cases[k][2], d.means.sticking, s.residual, s.trivial_error, greatest, lost, off);
+        assert_true(off < 1e-6 && s.trivial_error < 1e-6 && d.means.sticking > 0.0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(multipliers_against_differences), cmocka_unit_test(branch_through_lift_off),
-        cmocka_unit_test(exponents_of_hops), cmocka_unit_test(exponents_of_one_that_hardly_lands)};
+        cmocka_unit_test(orbits_of_held_discs), cmocka_unit_test(exponents_of_hops),
+        cmocka_unit_test(exponents_of_one_that_hardly_lands)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
