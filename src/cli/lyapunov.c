@@ -25,7 +25,9 @@ static void print_spectrum(FILE *out, const fst_lyapunov *l)
                       i == l->flow_direction ? "   (the flow direction: zero)" : "");
     }
     if (erased)
-        (void)fputs("  a contact that comes to rest erases two directions: -inf\n", out);
+        (void)fputs(
+            "  a contact that comes to rest erases directions, two at a point and three of a disc: -inf\n",
+            out);
     if (isnan(l->divergence))
         (void)fprintf(out, "  sum %.9f (the bead flew: nine of eleven, and impacts have no divergence)\n",
                       unsigned_zero(sum, 9));

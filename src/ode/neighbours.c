@@ -14,9 +14,6 @@
  * differences at equal times of |V| and of its direction become large against |V| itself; at equal theta they
  * die with it.  So a tangent vector keeps its dt until the slip is over or the way ends.
  *
- * A disc that is held (model/disc.c) has lost its pivoting too, which the plate's torque takes out; it lets go as if
- * static friction were stronger.
- *
  * Where the mode changes (w: what sticks or slips before, f: after):
  *
  *     slip -> stick     |V| has fallen to nothing in both at equal theta: what d still has of a slip is
@@ -45,8 +42,8 @@
  *     both at once      f changes where the contact does, and with it what the resistance has to hold; so the
  *                       modes that follow are asked of a copy of the flow
  *
- * A bead at rest has no slip, and neither has any neighbour: nine directions become seven.  So a return that
- * sticks somewhere has two multipliers that are exactly zero.
+ * A bead at rest has no slip, and neither has any neighbour: nine directions become seven, six where a held disc
+ * does not pivot either.  So a return that sticks somewhere has two or three multipliers that are exactly zero.
  *
  * Not in the derivative: the angle by which an onset lags behind (`lean`, as it changes in time) is that of the
  * motion for its neighbours too.  What they would feel of the difference is of the order (hand-over)^(3/2),
@@ -162,8 +159,7 @@ static void slip_of(const fst_neighbours *b, const fst_world_double *c, const do
     fst_slip_double(c, seen, slip);
 }
 
-/* Take the slip, and of a disc the pivoting, out of all neighbours, as the plate's impulse does: the moment about
- * the contact stays. */
+/* Take slips (and pivoting, of a disc) out, as the plate's impulse does: the moment about the contact stays. */
 static void stop_slips(fst_neighbours *b, const fst_world_double *c, const double *y)
 {
     for (int column = 0; column < b->count; ++column) {
@@ -284,8 +280,7 @@ static void forget_clocks(fst_neighbours *b)
         b->d[column][FST_STEP_TIME] = 0.0;
 }
 
-/* What static friction could still take, in a setup, of the push in a state, and its change in time or along a
- * neighbour. */
+/* What static friction could still take of the push in a state, and its change in time or along a neighbour. */
 static double grip(const fst_world_double *c, const fst_modes_double *m, const double *y)
 {
     fst_pull_double p;
@@ -577,6 +572,13 @@ void fst_neighbours_start(fst_neighbours *b, const fst_flow *flow)
         stop_rolling(b, c);
     if (fst_sticks_double(c, fst_flow_modes(flow)) > 0.5 || fst_contact_mode(flow) == FST_MODE_ONSET)
         stop_slips(b, c, flow->step.y);
+}
+
+int fst_neighbours_known(const fst_flow *flow)
+{
+    const fst_world_double *c = fst_flow_world(flow);
+    const int held = fst_contact_mode(flow) == FST_MODE_STICK || flow->contact.slip.next == FST_MODE_STICK;
+    return !(c->kinds.patch && held) || c->law.coulomb.holding > fst_coulomb_mu_double(&c->law.coulomb, 0.0);
 }
 
 void fst_neighbours_follow(fst_neighbours *b, const fst_flow *flow)

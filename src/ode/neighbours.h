@@ -23,6 +23,10 @@ void fst_neighbours_start(fst_neighbours *b, const fst_flow *flow);
 /* Carry them along the flow's last step, and through the change of mode at its end. */
 void fst_neighbours_follow(fst_neighbours *b, const fst_flow *flow);
 
+/* Whether the flow's last step, and what follows it, is a motion of which neighbours are known: no disc
+ * that is held by a static friction no stronger than sliding friction. */
+int fst_neighbours_known(const fst_flow *flow);
+
 /* Compare them with the motion at equal times from here on. */
 void fst_neighbours_at_equal_times(fst_neighbours *b, const fst_flow *flow);
 

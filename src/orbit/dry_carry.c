@@ -18,6 +18,22 @@ enum { STEP_WORK = 60 }; /* of a step with its columns, in evaluations of the eq
 enum { MOST_CREEPING = 4000 };
 static const double NO_TIME = 1e-7;
 
+/* Why there are no multipliers and no exponents of a motion. */
+static fst_status refuse(const fst_flow *flow, fst_error *error)
+{
+    if (fst_flight_is_on(flow))
+        return fst_fail(error, FST_NO_CONVERGENCE, "tangents",
+                        "the bead is in the air where a piece of its orbit ends, at t = %.6g", flow->t.high);
+    return fst_fail(
+        error, FST_NO_CONVERGENCE, "tangents",
+        "the plate stops a disc of contact, its slip and its pivoting at once, at t = %.6g, and "
+        "neighbours are not followed through that: there are no multipliers and no exponents of this "
+        "motion; try a friction.mu_static above friction.mu, contact.patch point, the limit of a small disc, "
+        "or "
+        "a drive at which the bead goes on pivoting",
+        flow->t.high);
+}
+
 fst_status fst_dry_step(const fst_setup *setup, struct fst_neighbours *b, fst_flow *flow, double until,
                         int *creeping, fst_error *error)
 {
@@ -26,8 +42,9 @@ fst_status fst_dry_step(const fst_setup *setup, struct fst_neighbours *b, fst_fl
         status = fst_flow_step(flow, until, error);
     if (status != FST_OK)
         return status;
-    const int point = !fst_flow_world(flow)->kinds.patch; /* the floor under a disc's pace bounds its creep */
-    *creeping = point && fst_contact_elapsed(flow) < NO_TIME ? *creeping + 1 : 0;
+    if (!fst_neighbours_known(flow))
+        return refuse(flow, error);
+    *creeping = fst_contact_elapsed(flow) < NO_TIME ? *creeping + 1 : 0;
     if (*creeping > MOST_CREEPING)
         return fst_fail(error, FST_NO_CONVERGENCE, "tangents",
                         "friction can hardly stop the contact's slip at t = %.6g", flow->t.high);
@@ -49,8 +66,7 @@ static fst_status follow(const fst_setup *setup, fst_neighbours *b, fst_flow *fl
             *setup->sticks = 1;
     }
     if (fst_flight_is_on(flow))
-        return fst_fail(error, FST_NO_CONVERGENCE, "tangents",
-                        "the bead is in the air where a piece of its orbit ends, at t = %.6g", flow->t.high);
+        return refuse(flow, error);
     fst_neighbours_at_equal_times(b, flow);
     return FST_OK;
 }

@@ -27,6 +27,7 @@
 #include "base/error.h"
 #include "observe/marks.h"
 #include "ode/flight.h"
+#include "ode/neighbours.h"
 #include "orbit/describe.h"
 #include "study/conclude.h"
 
@@ -61,6 +62,7 @@ typedef struct search {
     int leaves;  /* ... at one that does not: the bead is leaving it, or will */
     int tried_departure;
     double slipped;              /* the time at which a contact that can stick last slipped */
+    double unfollowed;           /* the time at which neighbours of the bead were last not known */
     double rest[FST_STATE_SIZE]; /* that equilibrium */
     fst_orbit_outcome outcome;
 } search;
@@ -316,6 +318,17 @@ static fst_status went_elsewhere(search *s, fst_orbit_outcome outcome, fst_error
                     atan2(y[FST_Y], y[FST_X]) * 360.0 / FST_TWO_PI);
 }
 
+/* The plate held the bead's disc of contact until lately: Newton's method, which needs neighbours, is of no use. */
+static fst_status not_followed(search *s, fst_error *error)
+{
+    return fst_fail(
+        error, FST_NO_CONVERGENCE, "orbit",
+        "the plate holds the bead's disc of contact (the last time after %.4g drive periods at omega = %.10g), "
+        "and neighbours of a bead, which Newton's method and multipliers need, are not followed through that. "
+        "Try another start; run tells whether the motion repeats itself (period)",
+        s->unfollowed / s->drive_period, s->model->groups.omega);
+}
+
 static fst_status never_settled(search *s, double t_end, fst_error *error)
 {
     char motion[120];
@@ -371,6 +384,8 @@ static fst_status follow(search *s, double t_end, fst_solution *out, fst_error *
         if (r > fmin(50.0, s->model->groups.map_radius))
             return went_elsewhere(s, FST_ORBIT_EJECTED, error);
         fst_error ignored;
+        if (!fst_neighbours_known(s->flow))
+            s->unfollowed = s->flow->t.high;
         if (only_rolls(s))
             continue;
         if (note_passage(s)) {
@@ -402,7 +417,8 @@ static fst_status follow(search *s, double t_end, fst_solution *out, fst_error *
         return status;
     if (only_rolls(s))
         return rolls_for_ever(s, error);
-    return never_settled(s, t_end, error);
+    return t_end - s->unfollowed < RECENT * s->drive_period ? not_followed(s, error)
+                                                            : never_settled(s, t_end, error);
 }
 
 fst_status fst_search_orbit(const fst_family *family, fst_solution *out, fst_orbit_outcome *outcome,
@@ -414,6 +430,7 @@ fst_status fst_search_orbit(const fst_family *family, fst_solution *out, fst_orb
         return fst_watch_end(family->watch, fst_fail(error, FST_NO_MEMORY, "orbit", "out of memory"), error);
     s->family = family;
     s->half_distance = s->full_distance = INFINITY;
+    s->unfollowed = -INFINITY;
     double start[FST_STATE_SIZE];
     fst_model *model = NULL;
     fst_status status = fst_model_new(&family->params, &model, error);

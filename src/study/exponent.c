@@ -276,6 +276,10 @@ static fst_status follow_dry(fst_exponent *asked, fst_flow *flow, double rtol, c
             asked->failed = 1;
             return FST_OK;
         }
+        if (!fst_neighbours_known(flow)) {
+            asked->unknown = 1;
+            return FST_OK;
+        }
         fst_neighbours_follow(&b, flow);
         if (!(fst_twofold_difference((fst_twofold){end, 0.0}, flow->t) > 0.0))
             end_piece(&f, project_neighbour(&b, flow));

@@ -19,7 +19,8 @@ typedef struct fst_exponent {
      * differs between the halves of the time widens the error too, even where it is positive in both. */
     double chance;
     uint64_t rhs_calls;
-    int failed; /* the step size underflowed */
+    int failed;  /* the step size underflowed */
+    int unknown; /* the program does not know neighbours of such a motion (ode/neighbours.h) */
     /* How far the work has got (zeros: it has not begun); asked again, it goes on from there to the same bits.
      */
     int has_way;

@@ -84,6 +84,12 @@ static chaos test_chaos(const fst_watched_run *run, const fst_exponent *known, f
 {
     if (!known)
         return NOT_KNOWN;
+    if (known->unknown) {
+        REASON("regular or chaotic cannot be told: how neighbours of a bead move that a disc of contact holds, "
+               "is not "
+               "known to this program");
+        return UNCLEAR;
+    }
     const double exponent = known->value, standard_error = known->standard_error;
     result->rhs_calls += known->rhs_calls;
     result->largest_exponent = exponent;

@@ -73,7 +73,23 @@ class Runs(Case):
 class Neighbours(Case):
     """What is not known of the neighbours of a bead is said, with the results of a run that tell more."""
 
+    def refused_by(self, command, *sets):
+        words = [word for text in sets for word in ("--set", text)]
+        return self.refused(command, *DRY, "--set", "run.periods=10", "--set", "run.discard=5", *words, status=1)
+
     def test_held_discs(self):
+        held = ("friction.mu=0.5", "drive.frequency=1Hz", "start.r=0.7", "contact.patch=hertz", "contact.radius=1mm")
+        results = self.run_keys()
+        for command in ("lyapunov", "orbit"):
+            err = self.refused_by(command, *held)
+            self.assertRegex(err, "holds the bead's disc|stops a disc")
+            self.assertRegex(err, "not followed through")
+            self.assertNotIn("festoon lyapunov tells", err)
+            for named in re.findall(r"\((\w+)\)", err):
+                self.assertIn(named, results, err)
+        self.assertIn("(period)", self.refused_by("orbit", *held))
+
+    def test_held_discs_of_stronger_static_friction(self):
         """A disc that is held loses its slip and its pivoting: three directions."""
         sets = ("friction.mu=0.5", "friction.mu_static=0.6", "drive.frequency=15Hz", "contact.patch=hertz",
                 "contact.radius=3mm", "run.periods=12", "run.discard=8")
