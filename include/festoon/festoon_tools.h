@@ -122,7 +122,7 @@ FST_API char *fst_field_at_json(const fst_params *params, double time, const dou
 /* The field at (x, y), as JSON like the above: `x`, `y`, `b` (3), `grad` (3 x 3), in the magnet's frame,
  * scaled; `height`, and the `force` and `load` of fst_field_pull(); with FST_SHOWN_LAB or FST_SHOWN_SI also
  * `b_tesla` and `grad_tesla_per_m`, null where B0 does not follow from the parameters, `force_newtons` and
- * `load_newtons`. */
+ * `load_newtons`.  Of a smoothed map also their errors, `b_error` and so on, and `fit`. */
 FST_API char *fst_field_json(const fst_model *model, double x, double y, fst_shown_units units);
 
 /* ------------------------------------------------------------------ trajectories */

@@ -67,9 +67,11 @@ typedef struct fst_smoothing {
 FST_API fst_status fst_field_map_smooth(const fst_field_map *measured, const fst_smoothing *how,
                                         const fst_progress *progress, fst_field_map **smooth, fst_error *error);
 
-/* The standard errors of what fst_field() tells of a model over a smoothed map, in the same units.  0, and no number
- * written: the model has no such map, or the place is beyond it. */
-FST_API int fst_field_error(const fst_model *model, double x, double y, double b[3], double grad[3][3]);
+/* The standard errors of what fst_field() and fst_field_pull() tell of a model over a smoothed map, in the same units;
+ * the load has the error of force[2].  That of the force is linear in the field's: too large where |B| is not far above
+ * its error.  0, and no number written: the model has no such map, or the place is beyond it. */
+FST_API int fst_field_error(const fst_model *model, double x, double y, double b[3], double grad[3][3],
+                            double force[3]);
 
 /* The map of a model, borrowed; NULL: it has none. */
 FST_API const fst_field_map *fst_model_map(const fst_model *model);

@@ -42,19 +42,23 @@ static void print_pull(FILE *out, const fst_model *model, const double at[2], fs
     double force[3], load;
     const char *name;
     const double unit = fst_unit_shown("l gamma^2", units, scales, &name);
+    double b[3], grad[3][3], error[3];
     fst_field_pull(model, at[0], at[1], force, &load);
     const double most = fmax(fabs(force[0]), fmax(fabs(force[1]), fabs(force[2])));
     (void)fprintf(out,
                   "on a bead with its moment along B: force %.9g %.9g %.9g %s, load on the plate %.9g %s\n",
                   unit * above_rounding(force[0], most), unit * above_rounding(force[1], most),
                   unit * above_rounding(force[2], most), name, unit * load, name);
+    if (fst_field_error(model, at[0], at[1], b, grad, error))
+        (void)fprintf(out, "+- force %.3g %.3g %.3g %s, load %.3g %s\n", unit * error[0], unit * error[1],
+                      unit * error[2], name, unit * error[2], name);
 }
 
 /* The errors of a smoothed map's field. */
 static void print_errors(FILE *out, const fst_model *model, const double at[2], double field, double slope)
 {
-    double b[3], grad[3][3];
-    if (!fst_field_error(model, at[0], at[1], b, grad))
+    double b[3], grad[3][3], force[3];
+    if (!fst_field_error(model, at[0], at[1], b, grad, force))
         return;
     for (int i = 0; i < 3; ++i)
         (void)fprintf(out, "+- %c%14.3g   %16.3g %16.3g %16.3g\n", "XYZ"[i], field * b[i], slope * grad[i][0],

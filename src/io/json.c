@@ -337,36 +337,36 @@ static void put_field(fst_json *json, const double b[3], double grad[3][3], doub
     fst_json_close(json);
 }
 
-/* The magnetic force on a bead whose moment lies along the field, and its load on the plate. */
-static void put_pull(fst_json *json, const fst_model *model, double x, double y, int in_si)
+/* The magnetic force on a bead whose moment lies along the field, and its load on the plate, or their errors. */
+static void put_pull(fst_json *json, const fst_groups *g, double force[3], double load,
+                     const char *const keys[4], int in_si)
 {
-    const fst_groups g = fst_model_groups(model);
-    const double newton = g.mass * g.length_unit / (g.time_unit * g.time_unit);
-    double force[3], load;
-    fst_field_pull(model, x, y, force, &load);
-    fst_json_real(json, "height", g.h);
-    fst_json_reals(json, "force", force, 3);
-    fst_json_real(json, "load", load);
+    const double newton = g->mass * g->length_unit / (g->time_unit * g->time_unit);
+    fst_json_reals(json, keys[0], force, 3);
+    fst_json_real(json, keys[1], load);
     if (!in_si)
         return;
     for (int i = 0; i < 3; ++i)
         force[i] *= newton;
-    fst_json_reals(json, "force_newtons", force, 3);
-    fst_json_real(json, "load_newtons", newton * load);
+    fst_json_reals(json, keys[2], force, 3);
+    fst_json_real(json, keys[3], newton * load);
 }
 
 /* The errors of a smoothed map's field, and its fit in SI. */
 static void put_errors(fst_json *json, const fst_model *model, double x, double y, int in_si)
 {
-    double b[3], grad[3][3];
+    double b[3], grad[3][3], force[3];
     const fst_groups g = fst_model_groups(model);
-    if (!fst_field_error(model, x, y, b, grad))
+    if (!fst_field_error(model, x, y, b, grad, force))
         return;
     const fst_map_fit fit = fst_field_map_describe(fst_model_map(model)).fit;
     put_field(json, b, grad, 1.0, 1.0, "b_error", "grad_error");
     if (in_si)
         put_field(json, b, grad, g.field_unit, g.field_unit / g.length_unit, "b_error_tesla",
                   "grad_error_tesla_per_m");
+    put_pull(json, &g, force, force[2],
+             (const char *const[]){"force_error", "load_error", "force_error_newtons", "load_error_newtons"},
+             in_si);
     fst_json_open(json, "fit", '{');
     fst_json_integer(json, "charges", fit.charges);
     fst_json_real(json, "depth_m", fit.depth);
@@ -386,17 +386,20 @@ static void put_errors(fst_json *json, const fst_model *model, double x, double 
 
 char *fst_field_json(const fst_model *model, double x, double y, fst_shown_units units)
 {
-    double b[3], grad[3][3];
+    double b[3], grad[3][3], force[3], load;
     const fst_groups g = fst_model_groups(model);
     const int in_si = units == FST_SHOWN_SI || units == FST_SHOWN_LAB;
     fst_field(model, x, y, b, grad);
+    fst_field_pull(model, x, y, force, &load);
     fst_json json = fst_json_begin('{');
     fst_json_real(&json, "x", x);
     fst_json_real(&json, "y", y);
     put_field(&json, b, grad, 1.0, 1.0, "b", "grad");
     if (in_si)
         put_field(&json, b, grad, g.field_unit, g.field_unit / g.length_unit, "b_tesla", "grad_tesla_per_m");
-    put_pull(&json, model, x, y, in_si);
+    fst_json_real(&json, "height", g.h);
+    put_pull(&json, &g, force, load, (const char *const[]){"force", "load", "force_newtons", "load_newtons"},
+             in_si);
     put_errors(&json, model, x, y, in_si);
     return fst_json_end(&json, JSON_INDENT(2));
 }

@@ -27,8 +27,8 @@ static void write_number(FILE *out, double value, const char *behind)
 /* The errors of B, of a smoothed map alone, in columns that readers of maps pass over. */
 static void write_errors(FILE *out, const fst_model *model, double x, double y, double unit, double slope)
 {
-    double b[3], grad[3][3], square = 0.0;
-    if (!fst_field_error(model, x, y, b, grad))
+    double b[3], grad[3][3], force[3], square = 0.0;
+    if (!fst_field_error(model, x, y, b, grad, force))
         return;
     for (int k = 0; k < 3; ++k) {
         for (int i = 0; i < 3; ++i)

@@ -435,10 +435,11 @@ double *fst_charges_room(const fst_charges *charges)
 }
 
 void fst_charges_look(const fst_charges *charges, const double place[3], int values, double *room, double *out,
-                      double *errors)
+                      double *covariance)
 {
     const int n = charge_columns(&charges->sites);
-    double variance[CHARGE_VALUES] = {0};
+    for (int i = 0; i < values * values && covariance; ++i)
+        covariance[i] = 0.0;
     charge_rows(&charges->sites, place, values, room);
     for (int v = 0; v < values; ++v)
         out[v] = 0.0;
@@ -449,11 +450,10 @@ void fst_charges_look(const fst_charges *charges, const double place[3], int val
                 rows[v * n + n - 1] = 0.0; /* the probe's, and not the field's */
             out[v] += dot(n, &rows[v * n], &charges->strength[c * n]);
         }
-        if (errors)
+        if (covariance)
             solve_lower(n, charges->factor[c], rows, values, 0);
-        for (int v = 0; v < values && errors; ++v)
-            variance[v] += dot(n, &rows[v * n], &rows[v * n]);
+        for (int i = 0; i < values * values && covariance; ++i)
+            covariance[i] +=
+                charges->fit.noise * charges->fit.noise * dot(n, &rows[i / values * n], &rows[i % values * n]);
     }
-    for (int v = 0; v < values && errors; ++v)
-        errors[v] = charges->fit.noise * sqrt(variance[v]);
 }

@@ -61,10 +61,10 @@ fst_status fst_charges_fit(const fst_field_map *map, const fst_smoothing *how, c
                            fst_charges **charges, fst_error *error);
 void fst_charges_free(fst_charges *charges);
 
-/* The first `values` of CHARGE_VALUES at a place in m, in T and T/m; errors (1 sigma) where it is not NULL.  `room`
- * is for charge_rows(). */
+/* The first `values` of CHARGE_VALUES at a place in m, in T and T/m, and the covariance of their errors (values x
+ * values) where it is not NULL.  `room` is for charge_rows(). */
 void fst_charges_look(const fst_charges *charges, const double place[3], int values, double *room, double *out,
-                      double *errors);
+                      double *covariance);
 double *fst_charges_room(const fst_charges *charges);
 
 #endif

@@ -103,22 +103,45 @@ fst_status fst_field_map_smooth(const fst_field_map *measured, const fst_smoothi
     return status;
 }
 
-int fst_field_error(const fst_model *model, double x, double y, double b[3], double grad[3][3])
+/* Where the gradient's elements are among CHARGE_VALUES. */
+static const int OF[3][3] = {{3, 4, 5}, {4, 6, 7}, {5, 7, 8}};
+
+/* How a component of the force of fst_field_pull() changes with CHARGE_VALUES, B and gradient in T and T/m:
+ * F = (p/|B| + 2 (a + b)) G'B with p = kappa eps^2. */
+static void change_of_force(const fst_groups *g, const double b[3], double grad[3][3], int j,
+                            double change[CHARGE_VALUES])
 {
-    static const int of[3][3] = {{3, 4, 5}, {4, 6, 7}, {5, 7, 8}};
+    const double norm = sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
+    const double hard = g->kappa * (g->eps * g->eps) / norm, all = hard + 2.0 * (g->a + g->b);
+    const double slope = b[0] * grad[0][j] + b[1] * grad[1][j] + b[2] * grad[2][j];
+    for (int v = 3; v < CHARGE_VALUES; ++v)
+        change[v] = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        change[i] = (all * grad[i][j] - hard * slope * b[i] / (norm * norm)) / g->field_unit;
+        change[OF[i][j]] = all * b[i] / g->field_unit * g->length_unit;
+    }
+}
+
+int fst_field_error(const fst_model *model, double x, double y, double b[3], double grad[3][3], double force[3])
+{
     const fst_groups *g = &model->groups;
     const fst_charges *charges = model->map ? fst_map_charges(model->map) : NULL;
-    double out[CHARGE_VALUES], errors[CHARGE_VALUES], here[3], *room;
+    double out[CHARGE_VALUES], covariance[CHARGE_VALUES][CHARGE_VALUES], here[3], slope[3][3], *room;
     const double place[3] = {x * g->length_unit, y * g->length_unit, g->h * g->length_unit};
-    fst_field(model, x, y, here, grad);
+    fst_field(model, x, y, here, slope);
     if (!charges || isnan(here[0]) || !(room = fst_charges_room(charges)))
         return 0;
-    fst_charges_look(charges, place, CHARGE_VALUES, room, out, errors);
+    fst_charges_look(charges, place, CHARGE_VALUES, room, out, covariance[0]);
     free(room);
     for (int i = 0; i < 3; ++i) {
-        b[i] = errors[i] / g->field_unit;
+        double change[CHARGE_VALUES], variance = 0.0;
+        change_of_force(g, here, slope, i, change);
+        for (int k = 0; k < CHARGE_VALUES * CHARGE_VALUES; ++k)
+            variance += change[k / CHARGE_VALUES] * covariance[0][k] * change[k % CHARGE_VALUES];
+        force[i] = sqrt(variance);
+        b[i] = sqrt(covariance[i][i]) / g->field_unit;
         for (int k = 0; k < 3; ++k)
-            grad[i][k] = errors[of[i][k]] / g->field_unit * g->length_unit;
+            grad[i][k] = sqrt(covariance[OF[i][k]][OF[i][k]]) / g->field_unit * g->length_unit;
     }
     return 1;
 }

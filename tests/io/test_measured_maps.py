@@ -242,12 +242,20 @@ class Smooth(Maps):
             found = told[key] if key == "b" else sum(told[key], [])
             for a, b, e in zip(there, found, error):
                 self.assertLess(abs(a - b), 3.5 * e)
+        for a, b, e in zip(exact["force"] + [exact["load"]], told["force"] + [told["load"]],
+                           told["force_error"] + [told["load_error"]]):
+            self.assertLess(abs(a - b), 3.5 * e)
+            self.assertLess(e, 0.03 * max(map(abs, exact["force"])))
+        self.assertAlmostEqual(told["load_error_newtons"] / told["load_error"],
+                               told["load_newtons"] / told["load"], delta=1e-12)
+        self.assertEqual(told["load_error_newtons"], told["force_error_newtons"][2])
         self.assertAlmostEqual(told["b_error_tesla"][0], 0.01 * told["b_error"][0], delta=1e-12)
         self.assertAlmostEqual(told["fit"]["noise_tesla"], 1e-3 * self.noise, delta=0.06e-3 * self.noise)
         self.assertNotIn("probe_turned_rad", told["fit"])
-        self.assertNotIn("fit", self.field(self.noisy))
+        self.assertFalse([key for key in self.field(self.noisy) if key == "fit" or "error" in key])
         text = self.good("field", *self.over(self.noisy), "--smooth", "--at", "0.43,-0.61", "--units", "lab")
         self.assertIn("+- X", text)
+        self.assertRegex(text, r"\n\+- force [^ ]+ [^ ]+ [^ ]+ mN, load [^ ]+ mN\n")
         self.assertRegex(text, r"^\d+ charges from .* mm below the map on; .* chi\^2 of \d+ degrees")
         free = self.told("--probe", "--noise", f"{self.noise} mT")["fit"]
         self.assertAlmostEqual(free["noise_tesla"], 1e-3 * self.noise, delta=0.06e-3 * self.noise)

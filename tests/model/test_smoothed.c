@@ -97,13 +97,15 @@ static fst_model *model_over(const fst_params *p, const fst_field_map *map, doub
     measured.magnet_shape = FST_MAGNET_GRID;
     measured.magnet_b0 = MAP_B0;
     measured.magnet_map = map;
+    measured.bead_a = 0.2; /* a bead soft and hard, whose force is of both degrees in the field */
     return model_at(&measured, height);
 }
 
 /* How a smoothed map differs from the truth, up to a share of its half width; its last four samples are its rim. */
 static const double WITHIN = 0.87;
 typedef struct comparison {
-    double of_b[2], of_slope[2], of_each[9][2], count; /* shares within 1 and 2 standard errors, and places */
+    double of_b[2], of_slope[2], of_each[9][2], of_force[3][2],
+        count; /* shares within 1 and 2 standard errors, and places */
     double force, greatest_force,
         told; /* greatest error, greatest force; mean error told of a slope, in B0/l */
 } comparison;
@@ -116,24 +118,27 @@ static void count_in(double off, double error, double shares[2])
 
 static void compare_at(const fst_model *models[2], double x, double y, comparison *c)
 {
-    double b[2][3], g[2][3][3], eb[3], eg[3][3], force[2][3] = {{0}};
+    double b[2][3], g[2][3][3], eb[3], eg[3][3], ef[3], force[2][3] = {{0}};
+    const fst_groups groups = fst_model_groups(models[1]);
+    const double hard = groups.kappa * groups.eps * groups.eps, soft = 2.0 * (groups.a + groups.b);
     for (int m = 0; m < 2; ++m) {
         const double unit = fst_model_groups(models[m]).field_unit / MAP_B0;
         fst_field(models[m], x, y, b[m], g[m]);
         const double strength = sqrt(b[m][0] * b[m][0] + b[m][1] * b[m][1] + b[m][2] * b[m][2]);
         for (int i = 0; i < 3; ++i)
             for (int k = 0; k < 3; ++k)
-                force[m][k] += unit * g[m][i][k] * b[m][i] / strength;
+                force[m][k] += unit * g[m][i][k] * b[m][i] * (hard / strength + soft * unit);
         for (int i = 0; i < 3; ++i) {
             b[m][i] *= unit;
             for (int k = 0; k < 3; ++k)
                 g[m][i][k] *= unit;
         }
     }
-    assert_int_equal(fst_field_error(models[1], x, y, eb, eg), 1);
+    assert_int_equal(fst_field_error(models[1], x, y, eb, eg, ef), 1);
     double off = 0.0, size = 0.0;
     for (int i = 0; i < 3; ++i) {
         count_in(b[1][i] - b[0][i], eb[i], c->of_b);
+        count_in(force[1][i] - force[0][i], ef[i], c->of_force[i]);
         off += (force[1][i] - force[0][i]) * (force[1][i] - force[0][i]);
         size += force[0][i] * force[0][i];
         for (int k = 0; k < 3; ++k) {
@@ -168,7 +173,13 @@ static void check_coverage(const comparison *c)
     CHECK_WITHIN(c->of_b[1] / (3.0 * c->count), 0.93, 1.0);
     CHECK_WITHIN(c->of_slope[0] / (9.0 * c->count), 0.63, 0.9);
     CHECK_WITHIN(c->of_slope[1] / (9.0 * c->count), 0.93, 1.0);
-    for (int i = 0; i < 9; ++i) { /* errors of neighbouring places are alike */
+    for (int i = 0; i < 3; ++i) { /* errors of neighbouring places are alike */
+        print_message("force %d within errors: %.2f %.2f\n", i, c->of_force[i][0] / c->count,
+                      c->of_force[i][1] / c->count);
+        CHECK_WITHIN(c->of_force[i][0] / c->count, 0.5, 0.93);
+        CHECK_WITHIN(c->of_force[i][1] / c->count, 0.88, 1.0);
+    }
+    for (int i = 0; i < 9; ++i) {
         CHECK_WITHIN(c->of_each[i][0] / c->count, 0.5, 0.93);
         CHECK_WITHIN(c->of_each[i][1] / c->count, 0.88, 1.0);
     }
@@ -346,7 +357,7 @@ static void test_exact(void **unused)
     fst_field(model, 0.3, -0.4, after, grad);
     for (int i = 0; i < 3; ++i)
         CHECK_SAME_BITS(after[i], before[i]);
-    assert_int_equal(fst_field_error(model, 0.3, -0.4, after, grad), 0);
+    assert_int_equal(fst_field_error(model, 0.3, -0.4, after, grad, before), 0);
     comparison c = {.count = 0.0};
     compare(&p, made, HEIGHT + 5e-3, &c);
     CHECK_WITHIN(c.force, 0.0, 1e-4 * c.greatest_force);
