@@ -136,8 +136,9 @@ int fst_field_error(const fst_model *model, double x, double y, double b[3], dou
     for (int i = 0; i < 3; ++i) {
         double change[CHARGE_VALUES], variance = 0.0;
         change_of_force(g, here, slope, i, change);
-        for (int k = 0; k < CHARGE_VALUES * CHARGE_VALUES; ++k)
-            variance += change[k / CHARGE_VALUES] * covariance[0][k] * change[k % CHARGE_VALUES];
+        for (int k = 0; k < CHARGE_VALUES; ++k)
+            for (int v = 0; v < CHARGE_VALUES; ++v)
+                variance += change[k] * covariance[k][v] * change[v];
         force[i] = sqrt(variance);
         b[i] = sqrt(covariance[i][i]) / g->field_unit;
         for (int k = 0; k < 3; ++k)
