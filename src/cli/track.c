@@ -147,13 +147,28 @@ static void warn_of_scales(const fst_film_track_report *r)
     }
 }
 
+/* A whole edge outside of the one that was taken may be the plate's, where a dark ring is printed on it. */
+static void warn_of_edges(const fst_film_track_report *r)
+{
+    for (int i = 0; i < r->edge_count; ++i)
+        if (r->edges[i].share > 0.9 && r->edges[i].diameter[0] > 1.02 * r->plate[0])
+            (void)fprintf(
+                stderr,
+                "festoon: warning: a fainter edge of %.4g pixels lies all around the edge of %.4g pixels that "
+                "was taken for the plate's: look at --figure, and give points as the scale if it is the "
+                "wrong one\n",
+                r->edges[i].diameter[0], r->plate[0]);
+}
+
 /* What makes a person look twice. */
 static void warn(const fst_film_track_report *r)
 {
+    const int faint = r->contrast < FAINT_LEVELS || r->contrast < FAINT_OF_NOISE * r->noise;
     if (r->remark[0])
         (void)fprintf(stderr, "festoon: warning: %s\n", r->remark);
     warn_of_scales(r);
-    if (r->contrast < FAINT_LEVELS || r->contrast < FAINT_OF_NOISE * r->noise)
+    warn_of_edges(r);
+    if (faint)
         (void)fprintf(
             stderr,
             "festoon: warning: the bead differs from the plate by %.0f gray levels of 255 only, where the "
@@ -167,7 +182,7 @@ static void warn(const fst_film_track_report *r)
             "festoon: warning: how wide the bead is shows only to %.0f %%: it is blurred, unevenly lit, or its "
             "shadow cannot be told from it\n",
             100.0 * r->diameter_error / r->diameter);
-    if (r->twins > r->frames / 50)
+    if (r->twins > r->frames / 50 && !faint) /* compression repeats dark frames of any film */
         (void)fprintf(
             stderr,
             "festoon: warning: %d frames repeat the one before: the film was converted to another frame "

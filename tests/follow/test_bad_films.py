@@ -70,6 +70,16 @@ class BadFilms(films.OnFilms):
                    "--noise", "6", "--to", "3")
         self.assertNotIn("camera  ", self.track(self.folder / "lamps.mp4")[1].stdout)
 
+    def test_a_ring_within_a_faint_edge(self):
+        """A black ring is taken for a plate that hardly differs from the table: the edge around it is told."""
+        flat, film = self.folder / "flat.mp4", self.folder / "ring.mp4"
+        films.film(self.path, flat, "--size", "480x360", "--noise", "1", "--tilt", "0deg", "--quality", "0", "--to", "1")
+        for outside, told in (("lum(X,Y)", False), ("if(lt(hypot(X-240,Y-180),146),lum(X,Y),158)", True)):
+            ffmpeg("-i", flat, "-vf", f"geq=lum='if(between(hypot(X-240,Y-180),130,134),25,{outside})':cb=128:cr=128",
+                   "-crf", "10", film)
+            _, done = self.track(film, "--scale", "plate 120 mm")
+            self.assertEqual("a fainter edge of 29" in done.stderr, told, done.stdout + done.stderr)
+
     def test_too_much_shake(self):
         self.refused(self.shaken(45), "the camera moves|pixels|fix the camera")
 
