@@ -417,8 +417,9 @@ static fst_status perform(tracking *t, fst_track *track, fst_error *error)
     const double fps = (t->source.frames - 1) / (t->source.times[t->source.frames - 1] - t->source.times[0]);
     status = follow_overlay_begin(&t->overlay, &t->still, &t->look, fps, t->source.frames, t->beads, o->overlay,
                                   o->picture, error);
-    if (status == FST_OK)
-        status = follow(t, &told, error);
+    if (status != FST_OK)
+        return status;
+    status = follow(t, &told, error);
     t->report->frames = t->frames;
     if (status == FST_OK && t->report->lost == t->frames)
         status = fst_fail(error, FST_BAD_INPUT, t->path, "%s in none of its %d frames",

@@ -195,7 +195,8 @@ static fst_status read_axis(fst_grid *grid, const char *text, fst_error *error)
         return fst_fail(error, FST_BAD_INPUT, AXES, "%s is a text, which a sweep does not vary", key);
     for (int i = 0; i + 1 < grid->axis_count; ++i) {
         const char *other = fst_param_other_form(grid->axes[i].info->key);
-        if (grid->axes[i].param == a->param || (other && strcmp(other, key) == 0))
+        if (grid->axes[i].param == a->param || (other && strcmp(other, key) == 0) ||
+            fst_params_clash(&grid->base, grid->axes[i].info->key, key))
             return fst_fail(error, FST_BAD_INPUT, AXES, "%s is varied twice%s", key,
                             grid->axes[i].param == a->param ? "" : ", in both its forms");
     }

@@ -322,7 +322,11 @@ static void exponents_of_one_that_hardly_lands(void **unused)
 static void orbits_of_held_discs(void **unused)
 {
     (void)unused;
-    static const double cases[][4] = {{0.2, 0.24, 15.0, 3e-3}, {0.5, 0.6, 15.0, 3e-3}, {0.3, 0.4, 30.0, 4e-3}};
+    /* mu, mu_s, Hz, the disc's radius, or a modulus by which its radius follows the load */
+    static const double cases[][5] = {{0.2, 0.24, 15.0, 3e-3, NAN},
+                                      {0.5, 0.6, 15.0, 3e-3, NAN},
+                                      {0.3, 0.4, 30.0, 4e-3, NAN},
+                                      {0.5, 0.6, 15.0, NAN, 3e3}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
         fst_params params = flying(cases[k][0], NAN, cases[k][2]);
         fst_family family;
@@ -335,6 +339,7 @@ static void orbits_of_held_discs(void **unused)
         params.friction_mu_static = cases[k][1];
         params.contact_patch = FST_PATCH_HERTZ;
         params.contact_radius = cases[k][3];
+        params.contact_modulus = cases[k][4];
         if (fst_family_begin(&family, &params, NULL, &error) != FST_OK ||
             fst_search_orbit(&family, &s, &outcome, &error) != FST_OK ||
             fst_solution_spectrum(&family, &s, &error) != FST_OK ||

@@ -168,6 +168,19 @@ class Keys(Over):
         self.assertNotEqual(rows[2]["final_state"], rows[3]["final_state"])
 
 
+    def test_what_kappa_is_made_of(self):
+        """Where kappa is given, what it is made of changes nothing: it is told, whichever makers are varied."""
+        makers = {"bead.moment": "bead.moment=0.05", "magnet.b0": "magnet.b0=10mT"}
+        for key in ("bead.moment", "magnet.b0", "bead.mass", "bead.density"):
+            for sets in ((), tuple(makers.values())):
+                low, high = RANGES[key][0].split(":")
+                words = [word for text in sets if not text.startswith(key) for word in ("--set", text)]
+                err = festoon("sweep", *VERY_SHORT, *words, "--over", f"{key}={low}:{high}:2", "-o", self.path(f"{key}{len(sets)}.db"))[2]
+                self.assertEqual(f"so that {key} changes nothing" in err, not sets, (key, sets, err))
+        err = festoon("sweep", *VERY_SHORT, "--over", "bead.moment=0.05,0.06", "--over", "magnet.b0=1mT,2mT", "-o", self.path("b.db"))[2]
+        self.assertNotIn("changes nothing", err)
+
+
 class Forms(Over):
     def values(self, axis, key="model.kappa"):
         return [row[key] for row in self.table(axis)]
@@ -222,7 +235,8 @@ class Forms(Over):
         for one, other in (("drive.frequency=5,6", "drive.omega=0.1,0.2"), ("bead.radius=2mm,3mm", "model.eps=0.1,0.2"),
                            ("magnet.depth=15mm,16mm", "model.h=0.8,0.9"),
                            ("magnet.width=15mm,16mm", "model.lambda=0.8,0.9"),
-                           ("model.kappa=1,2", "magnet.b0=1mT,2mT")):
+                           ("model.kappa=1,2", "magnet.b0=1mT,2mT"), ("start.r=0.5,0.6", "start.position[0]=1cm,2cm"),
+                           ("start.phi=0,1", "start.position[1]=1cm,2cm")):
             self.says("both its forms", one, other)
             self.says("both its forms", other, one)
         # --over replaces the other form that the scene has, as --set does.
