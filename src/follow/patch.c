@@ -201,7 +201,9 @@ fst_status follow_turning_place(follow_turning *turning, const follow_still *sti
     if (!(fabs(sum / turning->count - 1.0) < MOST_OFF))
         return fst_fail(error, FST_BAD_INPUT, "fst_film_track_options.turning",
                         "by the scale a bead of %.4g mm is %.3g pixels wide, but the bead of the film is %.3g "
-                        "pixels wide: give its diameter, and check the scale",
-                        2.0 * radius, 2.0 * turning->radius * turning->count / sum, 2.0 * turning->radius);
+                        "pixels wide: give its diameter, and check the scale%s",
+                        2.0 * radius, 2.0 * turning->radius * turning->count / sum, 2.0 * turning->radius,
+                        sum < turning->count ? "; a light bead may be taken for no more than its dark dots"
+                                             : "");
     return FST_OK;
 }
