@@ -93,8 +93,8 @@ class Turning(films.OnFilms):
     def test_what_is_refused(self):
         film = self.folder / "a.mp4"
         self.refused(film, "needs a scale and the distance", "--turning", "5mm")
-        self.refused(film, "pixels wide|give its diameter|dark dots", "--turning", "8mm", "--scale", "plate 120mm", "--distance",
-                     "180mm")
+        self.refused(film, "pixels wide|give its diameter|dark dots", "--turning", "8mm", "--scale", "plate 120mm",
+                     "--distance", "180mm")
         self.refused(film, "more than 0", "--turning", "0mm", "--scale", "plate 120mm", "--distance", "180mm")
 
 
