@@ -469,8 +469,9 @@ typedef struct fst_critical_options {
 FST_API fst_critical_options fst_default_critical_options(void);
 
 /* Find it by runs over the range, then by more about the border, and by the branch of counter-rotating orbits where the
- * friction is smooth.  FST_BAD_INPUT: no range of the drive, or a scene of several beads or a world.  Free the result with
- * fst_critical_free(), also after a failure. */
+ * friction is smooth.  FST_BAD_INPUT: no range of the drive, or a scene of several beads or a world.
+ * FST_INTERRUPTED: the stretches are those of the runs that were done.  Free the result with fst_critical_free(), also
+ * after a failure. */
 FST_API fst_status fst_critical_find(const fst_params *params, const fst_critical_options *options,
                                      fst_critical *critical, fst_error *error);
 FST_API void fst_critical_free(fst_critical *critical);

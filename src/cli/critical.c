@@ -87,10 +87,15 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     progress_begin(&line);
     status = fst_critical_find(&params, &o, &found, error);
     progress_end(&line);
-    if (status == FST_OK && option_value(given, "json"))
-        status = print_and_free(fst_critical_json(&params, &found), out, error);
-    else if (status == FST_OK)
+    const int told = status == FST_OK || (status == FST_INTERRUPTED && found.runs > 0);
+    if (told && status != FST_OK)
+        output_keep();
+    if (told && option_value(given, "json")) {
+        const fst_status printed = print_and_free(fst_critical_json(&params, &found), out, error);
+        status = status == FST_OK ? printed : status;
+    } else if (told) {
         print_critical(out, &found);
+    }
     fst_critical_free(&found);
     return status;
 }

@@ -22,6 +22,7 @@ static const double BRANCH_ERROR = 1e-9; /* relative; docs/inside/orbits.md, spe
 typedef struct speed {
     double value;
     fst_regime regime;
+    int done;
 } speed;
 
 /* All runs, sorted by speed, because borders lie between neighbours; and the runs that the threads fill in now. */
@@ -80,6 +81,7 @@ static int take_result(void *user, fst_row_job *job, fst_status status, const fs
         return 0;
     }
     g->s->asked[job->point].regime = result->regime;
+    g->s->asked[job->point].done = 1;
     if (result->regime != FST_REGIME_UNDECIDED || !isnan(job->params.run_duration) ||
         job->params.run_periods > g->s->params->run_periods)
         return 0;
@@ -114,18 +116,23 @@ static void begin_part(search *s, double to, const char *what)
     s->told = (fst_progress){&s->part, fst_part_tell};
 }
 
-/* Do the first `count` of the runs that are asked for, and put them among the others. */
+/* Do the first `count` of the runs that are asked for, and put them among the others, also where some are missing
+ * because it was interrupted. */
 static fst_status run_asked(search *s, int count, fst_error *error)
 {
     const fst_work work = {s, (count + GROUP - 1) / GROUP, run_group, &s->told, &s->within};
     s->wanted = count;
+    for (int i = 0; i < count; ++i)
+        s->asked[i].done = 0;
     const fst_status status = fst_parallel(&work, error);
-    for (int i = 0; status == FST_OK && i < count; ++i) {
+    for (int i = 0; i < count; ++i) {
+        if (!s->asked[i].done)
+            continue;
         if (!fst_grow(&s->all, s->count, sizeof *s->all))
             return fst_fail(error, FST_NO_MEMORY, "critical", "out of memory");
         s->all[s->count++] = s->asked[i];
     }
-    if (status == FST_OK)
+    if (s->count)
         qsort(s->all, s->count, sizeof *s->all, by_value);
     return status;
 }
@@ -373,8 +380,15 @@ fst_status fst_critical_find(const fst_params *params, const fst_critical_option
     }
     if (status == FST_OK)
         status = find_borders(&s, options->tolerance, critical, error);
-    if (status == FST_OK)
+    if (status == FST_INTERRUPTED) {
+        critical->found = 0;
+        critical->value = critical->error = NAN;
+        (void)snprintf(critical->reason, sizeof critical->reason,
+                       "the search was interrupted, and these are all runs that were done");
+        (void)put_stretches(&s, critical, NULL);
+    } else if (status == FST_OK) {
         status = put_stretches(&s, critical, error);
+    }
     free(s.asked);
     free(s.all);
     fst_grid_free(grid);
