@@ -122,6 +122,20 @@ static void write_sized(const char *svg, const fst_canvas *canvas, FILE *out)
     (void)fputs(box ? box : svg, out);
 }
 
+/* gnuplot does not say how many pixels of a PNG make a metre: put that chunk behind the header, which is always as
+ * long.  Its words are the same in each figure, and so is their check sum at the end. */
+static void write_resolved(const char *png, size_t size, FILE *out)
+{
+    enum { HEADER = 8 + 4 + 4 + 13 + 4 }; /* the signature; length, name, words and check sum of IHDR */
+    static const char chunk[] = "\0\0\0\x09pHYs"
+                                "\0\0\x1d\x87\0\0\x1d\x87\x01" /* 192 in an inch are 7559 in a metre */
+                                "\x8f\xe5\xf1\x65";
+    const size_t head = size < HEADER ? size : HEADER;
+    (void)fwrite(png, 1, head, out); /* a failure is seen when the file is synced */
+    (void)fwrite(chunk, 1, sizeof chunk - 1, out);
+    (void)fwrite(png + head, 1, size - head, out);
+}
+
 /* ------------------------------------------------------------------ the script's head */
 
 void fst_figure_quote(fst_figure_file *figure, const char *text)
@@ -290,18 +304,21 @@ static const char *name_there(const fst_whole_file *file)
 static fst_status draw_by_gnuplot(const fst_figure_file *figure, fst_whole_file files[FILES], fst_error *error)
 {
     const int sized = figure->canvas.millimetres[0] > 0.0 && !strcmp(figure->ending, "svg");
+    const int changed = sized || !strcmp(figure->ending, "png");
     fst_printed printed;
-    FILE *out = sized ? fst_print_begin(&printed) : files[FIGURE].stream;
+    FILE *out = changed ? fst_print_begin(&printed) : files[FIGURE].stream;
     if (!out)
         return fst_fail(error, FST_NO_MEMORY, figure->out, "no memory for a figure");
     fst_status status =
         fst_gnuplot_run(figure->directory, name_there(&files[SCRIPT]), name_there(&files[DATA]), out, error);
-    char *svg = sized ? fst_print_end(&printed) : NULL;
-    if (sized && !svg && status == FST_OK)
+    char *drawn = changed ? fst_print_end(&printed) : NULL;
+    if (changed && !drawn && status == FST_OK)
         status = fst_fail(error, FST_NO_MEMORY, figure->out, "no memory for a figure");
-    if (svg)
-        write_sized(svg, &figure->canvas, files[FIGURE].stream);
-    free(svg);
+    if (drawn && sized)
+        write_sized(drawn, &figure->canvas, files[FIGURE].stream);
+    else if (drawn)
+        write_resolved(drawn, printed.size, files[FIGURE].stream);
+    free(drawn);
     return status;
 }
 

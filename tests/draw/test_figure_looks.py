@@ -14,6 +14,7 @@ import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree
+import zlib
 from pathlib import Path
 
 FESTOON = os.environ["FESTOON"]
@@ -78,6 +79,20 @@ def texts(path):
     """The texts of a figure and which of them stand as they are, in their order."""
     return [(text.replace("''", "'"), " noenhanced " in rest) for text, rest in
             re.findall(r"^set label '((?:[^']|'')*)' at ([^\n]*)$", path.read_text(encoding="utf-8"), re.MULTILINE)]
+
+
+def png_resolution(path):
+    """Pixels in a metre along both sides, and 1 for metres: of the one chunk that says it, before the picture.  All chunks are whole."""
+    data, at, found = path.read_bytes(), 8, {}
+    while at < len(data):
+        size, name = struct.unpack(">I4s", data[at : at + 8])
+        words, check = data[at + 8 : at + 8 + size], data[at + 8 + size : at + 12 + size]
+        assert check == struct.pack(">I", zlib.crc32(name + words)), name
+        assert name != b"pHYs" or not found.keys() & {b"pHYs", b"IDAT"}
+        found[name] = words
+        at += 12 + size
+    assert at == len(data)
+    return struct.unpack(">IIB", found[b"pHYs"])
 
 
 def png_size(path):
@@ -160,13 +175,14 @@ class Looks(unittest.TestCase):
         self.assertEqual(len([1 for _, plain in self.draw(words, "--title", "") if plain]), 1)  # the line below it is left
 
     def test_sizes(self):
-        """A PNG has the pixels of its size at 192 an inch; an SVG says it in mm."""
+        """A PNG has the pixels of its size at 192 an inch, and says so; an SVG says it in mm."""
         for words, _ in self.usual:
             for wide, tall in ((86, 60), (100, None)):
                 with self.subTest(words, wide=wide, tall=tall):
                     size = f"{wide}mmx{tall}mm" if tall else f"{wide}mm"
                     self.draw(words, "--size", size, out="f.png")
                     found = png_size(FOLDER / "f.png")
+                    self.assertEqual(png_resolution(FOLDER / "f.png"), (round(192 / 0.0254), round(192 / 0.0254), 1))
                     self.assertAlmostEqual(found[0], wide * 192 / 25.4, delta=1.01)
                     if tall:
                         self.assertAlmostEqual(found[1], tall * 192 / 25.4, delta=4)
