@@ -97,7 +97,8 @@ static fst_model *model_over(const fst_params *p, const fst_field_map *map, doub
     measured.magnet_shape = FST_MAGNET_GRID;
     measured.magnet_b0 = MAP_B0;
     measured.magnet_map = map;
-    measured.bead_a = 0.2; /* a bead soft and hard, whose force is of both degrees in the field */
+    measured.bead_material = FST_MATERIAL_MIXED;
+    measured.bead_a = 0.02; /* a bead soft and hard, whose force is of both degrees in the field */
     return model_at(&measured, height);
 }
 
@@ -173,11 +174,15 @@ static void check_coverage(const comparison *c)
     CHECK_WITHIN(c->of_b[1] / (3.0 * c->count), 0.93, 1.0);
     CHECK_WITHIN(c->of_slope[0] / (9.0 * c->count), 0.63, 0.9);
     CHECK_WITHIN(c->of_slope[1] / (9.0 * c->count), 0.93, 1.0);
-    for (int i = 0; i < 3; ++i) { /* errors of neighbouring places are alike */
-        print_message("force %d within errors: %.2f %.2f\n", i, c->of_force[i][0] / c->count,
-                      c->of_force[i][1] / c->count);
-        CHECK_WITHIN(c->of_force[i][0] / c->count, 0.5, 0.93);
-        CHECK_WITHIN(c->of_force[i][1] / c->count, 0.88, 1.0);
+    for (int within = 0; within < 2;
+         ++within) { /* one component alone less surely: neighbouring errors are alike */
+        const double lowest[2] = {0.63, 0.93}, alone[2] = {0.5, 0.88}, highest[2] = {0.9, 1.0};
+        double all = 0.0;
+        for (int i = 0; i < 3; ++i) {
+            CHECK_WITHIN(c->of_force[i][within] / c->count, alone[within], 1.0);
+            all += c->of_force[i][within] / (3.0 * c->count);
+        }
+        CHECK_WITHIN(all, lowest[within], highest[within]);
     }
     for (int i = 0; i < 9; ++i) {
         CHECK_WITHIN(c->of_each[i][0] / c->count, 0.5, 0.93);
