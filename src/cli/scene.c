@@ -47,7 +47,8 @@ static fst_status apply_sets(const arguments *given, fst_params *params, fst_err
                 continue;
             key_of(given->options[k].value, one);
             key_of(given->options[i].value, two);
-            if (fst_params_clash(params, one, two))
+            if (strcmp(one, "model.kappa") != 0 && strcmp(two, "model.kappa") != 0 &&
+                fst_params_clash(params, one, two))
                 status =
                     fail(error, FST_BAD_INPUT, "--set", "%s and %s give the same quantity: keep one", one, two);
         }
@@ -132,25 +133,6 @@ static fst_status check_effects(const arguments *given, const fst_params *params
     return fst_params_check_effects(&asked, error);
 }
 
-/* A sweep over what kappa is made of changes nothing where kappa itself is given. */
-static void warn_of_held_kappa(const arguments *given, const fst_params *params)
-{
-    static const char *const makers[] = {"bead.moment", "bead.remanence", "magnet.b0", "bead.mass",
-                                         "bead.density"};
-    fst_params at = *params;
-    const char *varied = NULL;
-    for (size_t i = 0; i < sizeof makers / sizeof *makers; ++i)
-        if (varies(given, makers[i]) && fst_params_set(&at, makers[i], "1", NULL) == FST_OK)
-            varied = makers[i];
-    char kappa[32];
-    (void)fst_params_get(&at, fst_param_find("model.kappa"), kappa, sizeof kappa);
-    if (varied && kappa[0] && !varies(given, "model.kappa"))
-        (void)fprintf(stderr,
-                      "festoon: warning: model.kappa is held at %s, so that %s changes nothing but units: give "
-                      "bead.moment and magnet.b0, from which it follows\n",
-                      kappa, varied);
-}
-
 fst_status read_scene(const arguments *given, const char *path, fst_params *params, fst_error *error)
 {
     char doubt[512];
@@ -171,7 +153,6 @@ fst_status read_scene(const arguments *given, const char *path, fst_params *para
         params->run_discard = fst_run_discard(params); /* what is printed is what is done */
     if (fst_params_bare_number(params, doubt, sizeof doubt))
         (void)fprintf(stderr, "festoon: warning: %s\n", doubt);
-    warn_of_held_kappa(given, params);
     status = check_effects(given, params, error);
     if (status != FST_OK) {
         (void)snprintf(error->where, sizeof error->where, "%s", path ? path : "");

@@ -168,19 +168,6 @@ class Keys(Over):
         self.assertNotEqual(rows[2]["final_state"], rows[3]["final_state"])
 
 
-    def test_what_kappa_is_made_of(self):
-        """Where kappa is given, what it is made of changes nothing: it is told, whichever makers are varied."""
-        makers = {"bead.moment": "bead.moment=0.05", "magnet.b0": "magnet.b0=10mT"}
-        for key in ("bead.moment", "magnet.b0", "bead.mass", "bead.density"):
-            for sets in ((), tuple(makers.values())):
-                low, high = RANGES[key][0].split(":")
-                words = [word for text in sets if not text.startswith(key) for word in ("--set", text)]
-                err = festoon("sweep", *VERY_SHORT, *words, "--over", f"{key}={low}:{high}:2", "-o", self.path(f"{key}{len(sets)}.db"))[2]
-                self.assertEqual(f"so that {key} changes nothing" in err, not sets, (key, sets, err))
-        err = festoon("sweep", *VERY_SHORT, "--over", "bead.moment=0.05,0.06", "--over", "magnet.b0=1mT,2mT", "-o", self.path("b.db"))[2]
-        self.assertNotIn("changes nothing", err)
-
-
 class Forms(Over):
     def values(self, axis, key="model.kappa"):
         return [row[key] for row in self.table(axis)]
