@@ -32,25 +32,26 @@ static fst_status apply_set(const char *text, fst_params *params, fst_error *err
     return status;
 }
 
-/* Apply each --set.  One of them replaces what the scene gives, in whichever form, but two that give one quantity
- * are a mistake: the second would win in silence. */
+/* Apply each --set.  Of two that give one quantity the last counts, as of two that give one key, so that a script can
+ * add its own behind others; but it is told, because it may be a mistake. */
 static fst_status apply_sets(const arguments *given, fst_params *params, fst_error *error)
 {
     fst_status status = FST_OK;
     for (int i = 0; i < given->option_count && status == FST_OK; ++i) {
-        if (strcmp(given->options[i].row->name, "set") == 0)
-            status = apply_set(given->options[i].value, params, error);
+        if (strcmp(given->options[i].row->name, "set") != 0)
+            continue;
+        status = apply_set(given->options[i].value, params, error);
         for (int k = 0; k < i && status == FST_OK; ++k) {
             key_text one, two;
-            if (strcmp(given->options[i].row->name, "set") != 0 ||
-                strcmp(given->options[k].row->name, "set") != 0)
+            if (strcmp(given->options[k].row->name, "set") != 0)
                 continue;
             key_of(given->options[k].value, one);
             key_of(given->options[i].value, two);
             if (strcmp(one, "model.kappa") != 0 && strcmp(two, "model.kappa") != 0 &&
                 fst_params_clash(params, one, two))
-                status =
-                    fail(error, FST_BAD_INPUT, "--set", "%s and %s give the same quantity: keep one", one, two);
+                (void)fprintf(
+                    stderr, "festoon: warning: --set: %s and %s give the same quantity: the last counts, %s\n",
+                    one, two, two);
         }
     }
     return status;
