@@ -85,9 +85,6 @@ fst_status read_scene(const arguments *given, const char *path, fst_params *para
 /* Warn on standard error where mass and radius of the bead contradict any material. */
 void warn_of_material(const fst_params *params);
 
-/* What is doubtful about a measured field, and what to do; NULL: nothing. */
-const char *doubt_of_map(const fst_field_map *map);
-
 /* Print a text that the library made, and free it.  NULL becomes FST_NO_MEMORY. */
 fst_status print_and_free(char *text, FILE *out, fst_error *error);
 

@@ -25,15 +25,6 @@ void warn_of_material(const fst_params *params)
         (void)fprintf(stderr, "festoon: warning: %s\n", sentence);
 }
 
-const char *doubt_of_map(const fst_field_map *map)
-{
-    const double curl = fst_field_map_describe(map).curl;
-    return curl > 0.1 ? "a magnet's field has no curl: much noise (festoon field --smooth), or columns or axes "
-                        "exchanged?"
-           : curl > 1e-3 ? "festoon field --smooth fits a field without curl"
-                         : NULL;
-}
-
 fst_status print_and_free(char *text, FILE *out, fst_error *error)
 {
     if (!text)

@@ -98,6 +98,17 @@ static void warn_of_empty(const char *path)
         shown(path, name));
 }
 
+static void warn_of_map(const fst_field_map *map)
+{
+    const double curl = fst_field_map_describe(map).curl;
+    if (curl > 1e-3)
+        (void)fprintf(stderr, "festoon: warning: the map of magnet.file has a curl of %.2g: %s\n", curl,
+                      curl > 0.1
+                          ? "a magnet's field has none: much noise (festoon field --smooth), or columns or "
+                            "axes exchanged?"
+                          : "festoon field --smooth fits a field without curl");
+}
+
 /* The map of the scene, which lives until the command is done. */
 static fst_status read_map(const arguments *given, fst_params *params, fst_error *error)
 {
@@ -107,10 +118,8 @@ static fst_status read_map(const arguments *given, fst_params *params, fst_error
     progress_begin(&line);
     const fst_status status = fst_params_read_map(params, &progress, given->map, error);
     progress_end(&line);
-    const char *doubt = status == FST_OK && *given->map ? doubt_of_map(*given->map) : NULL;
-    if (doubt)
-        (void)fprintf(stderr, "festoon: warning: the map of magnet.file has a curl of %.2g: %s\n",
-                      fst_field_map_describe(*given->map).curl, doubt);
+    if (status == FST_OK && *given->map)
+        warn_of_map(*given->map);
     return status;
 }
 

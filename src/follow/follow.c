@@ -389,11 +389,20 @@ static fst_status find_turning(tracking *t, const fst_progress *progress, fst_tr
     return status;
 }
 
-/* Where no scale or no bead was found, the picture and the overlay show why: they are written all the same. */
+/* Where no scale was found, or a bead in no frame, the picture and the overlay show why: they are written all the same. */
 static void show_what_was_found(tracking *t)
 {
     if (finish_overlay(t, NULL) == FST_OK)
         (void)follow_overlay_commit(&t->overlay, NULL);
+}
+
+/* Of a film that is refused before its frames are followed the picture shows what there was to be seen. */
+static void show_what_stands_still(tracking *t)
+{
+    if (t->still.level && t->options->picture &&
+        follow_overlay_begin(&t->overlay, &t->still, &t->look, 1.0, 1, t->beads, NULL, t->options->picture,
+                             NULL) == FST_OK)
+        show_what_was_found(t);
 }
 
 static fst_status perform(tracking *t, fst_track *track, fst_error *error)
@@ -403,11 +412,8 @@ static fst_status perform(tracking *t, fst_track *track, fst_error *error)
     fst_part parts[2] = {{o->progress, 0.4, turns ? 0.6 : 1.0, "frames"}, {o->progress, 0.6, 1.0, "turning"}};
     const fst_progress told = {&parts[0], fst_part_tell}, turning_told = {&parts[1], fst_part_tell};
     fst_status status = begin(t, error);
-    if (status == FST_BAD_INPUT && t->still.level &&
-        o->picture) { /* what there was to be seen, before any frame */
-        if (follow_overlay_begin(&t->overlay, &t->still, &t->look, 1.0, 1, t->beads, NULL, o->picture, NULL) ==
-            FST_OK)
-            show_what_was_found(t);
+    if (status == FST_BAD_INPUT) {
+        show_what_stands_still(t);
         return status;
     }
     if (status == FST_OK && turns)

@@ -112,21 +112,19 @@ fst_status fst_solution_section(const fst_family *family, const fst_solution *s,
     return status;
 }
 
-/* A contact that comes to rest loses both directions of its slip: two multipliers are exactly zero, but
- * rounding leaves something of them, which is taken away here. */
-static void clear_lost_directions(fst_solution *s)
+/* A contact that comes to rest loses both directions of its slip, and a disc that of its pivoting: so many multipliers
+ * are exactly zero, but rounding leaves something of them, which is taken away here. */
+static void clear_lost_directions(fst_solution *s, int lost)
 {
-    int first = 0, second = 1;
-    for (int i = 1; i < s->multipliers; ++i) {
-        const double size = hypot(s->re[i], s->im[i]);
-        if (size < hypot(s->re[first], s->im[first])) {
-            second = first;
-            first = i;
-        } else if (i > 1 && size < hypot(s->re[second], s->im[second])) {
-            second = i;
-        }
+    int cleared[FST_TANGENT_SIZE] = {0};
+    for (int k = 0; k < lost; ++k) {
+        int least = -1;
+        for (int i = 0; i < s->multipliers; ++i)
+            if (!cleared[i] && (least < 0 || hypot(s->re[i], s->im[i]) < hypot(s->re[least], s->im[least])))
+                least = i;
+        s->re[least] = s->im[least] = 0.0;
+        cleared[least] = 1;
     }
-    s->re[first] = s->im[first] = s->re[second] = s->im[second] = 0.0;
 }
 
 fst_status fst_solution_spectrum(const fst_family *family, fst_solution *s, fst_error *error)
@@ -141,7 +139,7 @@ fst_status fst_solution_spectrum(const fst_family *family, fst_solution *s, fst_
         return fst_fail(error, FST_NO_CONVERGENCE, "spectrum", "the eigenvalues at %.10g were not found",
                         s->value);
     if (s->segments > 0 && s->sticks)
-        clear_lost_directions(s);
+        clear_lost_directions(s, family->params.contact_patch == FST_PATCH_POINT ? 2 : 3);
     return FST_OK;
 }
 

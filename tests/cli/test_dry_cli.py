@@ -90,11 +90,20 @@ class Neighbours(Case):
         self.assertIn("(period)", self.refused_by("orbit", *held))
 
     def test_held_discs_of_stronger_static_friction(self):
-        """A disc that is held loses its slip and its pivoting: three directions."""
+        """A disc that is held loses its slip and its pivoting: three directions.  The other exponents, which come from
+        vectors carried along a run, are the logarithms of the orbit's multipliers over its period."""
         sets = ("friction.mu=0.5", "friction.mu_static=0.6", "drive.frequency=15Hz", "contact.patch=hertz",
-                "contact.radius=3mm", "run.periods=12", "run.discard=8")
-        words = ("lyapunov", *DRY, *[word for text in sets for word in ("--set", text)], "--json")
-        self.assertEqual(json.loads(self.good(*words))["exponents"].count(None), 3)
+                "contact.radius=3mm", "run.periods=100", "run.discard=40")
+        words = [*DRY, *[word for text in sets for word in ("--set", text)], "--json"]
+        found, orbit = (json.loads(self.good(command, *words)) for command in ("lyapunov", "orbit"))
+        self.assertEqual(found["exponents"].count(None), 3)
+        self.assertEqual(orbit["symmetry"], "S2")  # whose multipliers are those of half a period
+        wanted = [2 * math.log(math.hypot(*m)) / orbit["period"] for m in orbit["multipliers"] if m != [0, 0]]
+        wanted = sorted([0, *wanted], reverse=True)  # that along the flow too
+        self.assertEqual(len(wanted), 6)
+        for a, b, error in zip(found["exponents"], wanted, found["errors"]):
+            self.assertAlmostEqual(a, b, delta=2 * error)
+            self.assertLess(error, 1e-3)
 
     def test_flights(self):
         """The exponents of a bead that flies; their sum is not the divergence, because impacts contract too."""

@@ -8,8 +8,10 @@ tests: follow/still.c follow/learn.c follow/shake.c follow/overlay.c cli/track.c
 labels: slow"""
 
 import math
+import os
 import re
 import sys
+import tempfile
 import unittest
 
 import films
@@ -88,13 +90,16 @@ class BadFilms(films.OnFilms):
         film = self.folder / "light.mp4"
         for bright, noise in ((0.04, 0), (0.4, 60)):
             ffmpeg("-i", self.good, "-vf", f"lutyuv=y=16+(val-16)*{bright},noise=alls={noise}:allf=t", "-crf", "16", film)
-            self.refused(film, "too little light|gray levels|noise|more light")
+            with tempfile.TemporaryDirectory() as other:  # refused, it leaves the picture alone
+                self.refused(film, "too little light|gray levels|noise|more light", "--figure", f"{other}/why.png")
+                self.assertEqual(os.listdir(other), ["why.png"])
 
     def test_a_dim_film(self):
         """It is tracked with a warning, and its picture is shown brighter."""
         film, picture = self.folder / "dim.mp4", self.folder / "dim.png"
         ffmpeg("-i", self.good, "-vf", "lutyuv=y=16+(val-16)*0.12", "-crf", "10", film)
         _, done = self.track(film, "--figure", picture)
+        self.assertNotIn("was converted", done.stderr)
         self.assertRegex(done.stderr, r"differs from the plate by \d+ gray levels of 255 only, where the noise of a pixel is")
         ffmpeg("-i", picture, "-pix_fmt", "gray", self.folder / "dim.pgm")
         ffmpeg("-i", film, "-frames:v", "1", "-pix_fmt", "gray", self.folder / "frame.pgm")

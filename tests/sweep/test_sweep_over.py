@@ -168,6 +168,16 @@ class Keys(Over):
         self.assertNotEqual(rows[2]["final_state"], rows[3]["final_state"])
 
 
+    def test_each_length_discards_its_own_part(self):
+        """The part of a run that is not averaged follows the length that is varied, and not the scene's."""
+        words = ["--set", "run.periods=100", "--set", "run.rtol=1e-6"]
+        self.good("sweep", *words, "--over", "run.periods=6,20", "-o", self.path("lengths.db"))
+        rows = json.loads(self.good("export", self.path("lengths.db"), "--json"))
+        for row, periods in zip(rows, (6, 20)):
+            alone = json.loads(self.good("run", *words, "--set", f"run.periods={periods}", "--json"))
+            self.assertAlmostEqual(row["mean_r"], alone["mean_r"], delta=1e-6)
+
+
 class Forms(Over):
     def values(self, axis, key="model.kappa"):
         return [row[key] for row in self.table(axis)]
