@@ -157,16 +157,11 @@ fst_status fst_start_state(const fst_params *params, const fst_model *model, dou
                         "this computation takes one bead that no list holds, and the scene has a list of %d: "
                         "leave beads out",
                         params->bead_count);
-    const fst_status status =
-        fst_start(fst_params_settled(params, &room), model, model->world.height, &start, error);
+    fst_status status = fst_check_no_world(params, error);
+    if (status == FST_OK)
+        status = fst_start(fst_params_settled(params, &room), model, model->world.height, &start, error);
     if (status != FST_OK)
         return status;
-    if (start.x[2] != 0.0 || start.v[2] != 0.0)
-        return fst_fail(
-            error, FST_BAD_INPUT, start.x[2] != 0.0 ? "start.position[2]" : "start.velocity[2]",
-            "one bead moves on the plate: its centre starts %g l above it, as high as it is at rest "
-            "(start.position[2]), and start.velocity[2] is 0",
-            model->groups.eps);
     memcpy(state + FST_X, start.x, 2 * sizeof *state);
     memcpy(state + FST_VX, start.v, 2 * sizeof *state);
     memcpy(state + FST_NX, start.n, sizeof start.n);

@@ -92,8 +92,9 @@ static void refused(void **unused)
     (void)unused;
     static const struct {
         const char *key, *value, *sentence;
-    } rows[] = {{"start.position[2]", "3 mm", "one bead moves on the plate"},
-                {"start.velocity[2]", "1 mm/s", "start.velocity[2] is 0"},
+    } rows[] = {{"start.position[2]", "3 mm", "start.position[2] asks for a bead in three dimensions"},
+                {"start.velocity[2]", "1 mm/s", "start.velocity[2] asks for a bead in three dimensions"},
+                {"plate.shape", "none", "plate.shape asks for a bead in three dimensions"},
                 {"start.n[1]", "0", "no direction"},
                 {"start.position[0]", "24 cm", "beyond the plate's edge"}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
