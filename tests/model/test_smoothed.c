@@ -1,7 +1,8 @@
 /* Charges below a noisy map: their field has neither curl nor divergence, pulls a bead as the magnet does, at other
  * heights too, and what is told of its errors covers the truth; a turned probe is found; fields that are none are
  * refused.
- * tests: model/charges.c model/charge_sums.c model/smooth_map.c */
+ * tests: model/charges.c model/charge_sums.c model/smooth_map.c
+ * labels: numbers */
 #include "measured_field.h"
 
 #include <math.h>
