@@ -9,12 +9,11 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "base/text.h"
-#include "host/whole_file.h"
 #include "io/beads_text.h"
 #include "io/csv.h"
 #include "io/json.h"
 #include "io/load_hdf5.h"
+#include "io/rows_file.h"
 #include "io/text_table.h"
 
 /* ------------------------------------------------------------------ columns */
@@ -100,48 +99,13 @@ static int list_columns(int beads, column_list *list)
 
 struct fst_beads_trajectory {
     fst_params scene;
-    fst_whole_file file;
-    fst_hdf5_writer *writer; /* NULL: CSV, written to file.stream */
-    const fst_hdf5_module_table *module;
     column_list columns;
-    double *values, *factors;
-    const char **units; /* NULL: scaled */
+    fst_rows_file file;
 };
 
 static fst_status no_memory(const char *path, fst_error *error)
 {
     return fst_fail(error, FST_NO_MEMORY, path, "out of memory");
-}
-
-/* Units other than scaled ones. */
-static int choose_units(fst_beads_trajectory *trajectory, fst_shown_units units)
-{
-    const fst_scales scales = fst_scales_of(&trajectory->scene);
-    if (units != FST_SHOWN_LAB && units != FST_SHOWN_SI)
-        return 1;
-    const size_t count = (size_t)trajectory->columns.count;
-    trajectory->factors = calloc(count, sizeof *trajectory->factors);
-    trajectory->units = calloc(count, sizeof *trajectory->units);
-    for (size_t i = 0; i < count && trajectory->factors && trajectory->units; ++i)
-        trajectory->factors[i] =
-            fst_column_shown(trajectory->columns.at[i], units, &scales, &trajectory->units[i]);
-    return trajectory->factors && trajectory->units;
-}
-
-static fst_status begin(fst_beads_trajectory *trajectory, const char *path, int hdf5, fst_error *error)
-{
-    const column_list *columns = &trajectory->columns;
-    char *scene = fst_scene_text(&trajectory->scene, 0);
-    if (!scene)
-        return no_memory(path, error);
-    fst_status status = FST_OK;
-    if (hdf5)
-        status = trajectory->module->create(trajectory->file.path, columns->at, columns->count, scene,
-                                            &trajectory->writer, error);
-    else
-        fst_csv_begin(trajectory->file.stream, 1, scene, columns->at, columns->count, trajectory->units);
-    free(scene);
-    return status;
 }
 
 /* How many beads the trajectories of a scene have; 0: it is one of a bead on the plate, which has files of its own. */
@@ -150,43 +114,22 @@ static int count_beads(const fst_params *scene)
     return scene->bead_count ? scene->bead_count : fst_key_of_world(scene) != NULL;
 }
 
-static fst_status check_name(const char *path, int beads, fst_shown_units units, int *hdf5, fst_error *error)
-{
-    *hdf5 = fst_ends_in(path, ".h5") || fst_ends_in(path, ".hdf5");
-    if (*hdf5 && (units == FST_SHOWN_LAB || units == FST_SHOWN_SI))
-        return fst_fail(error, FST_BAD_INPUT, path, "a trajectory in other than scaled units is a .csv");
-    if (!*hdf5 && !fst_ends_in(path, ".csv"))
-        return fst_fail(error, FST_BAD_INPUT, path, "the name of a trajectory ends in .h5 or .csv");
-    if (!*hdf5 && TIMES + OF_A_BEAD * beads > FST_TEXT_CELLS)
-        return fst_fail(error, FST_BAD_INPUT, path,
-                        "a .csv has no room for the columns of %d beads: choose .h5", beads);
-    return FST_OK;
-}
-
 fst_status fst_beads_trajectory_create(const char *path, const fst_params *scene, fst_shown_units units,
                                        fst_beads_trajectory **out, fst_error *error)
 {
-    int hdf5 = 0;
-    *out = NULL;
     const int beads = count_beads(scene);
-    fst_status status = beads ? check_name(path, beads, units, &hdf5, error)
-                              : fst_fail(error, FST_BAD_INPUT, path, "the scene lists no beads");
-    if (status != FST_OK)
-        return status;
+    *out = NULL;
+    if (!beads)
+        return fst_fail(error, FST_BAD_INPUT, path, "the scene lists no beads");
     fst_beads_trajectory *trajectory = calloc(1, sizeof *trajectory);
     if (!trajectory)
         return no_memory(path, error);
     trajectory->scene = *scene;
-    const int listed = list_columns(beads, &trajectory->columns);
-    trajectory->values = calloc((size_t)trajectory->columns.count, sizeof *trajectory->values);
-    if (!listed || !trajectory->values || !choose_units(trajectory, units))
-        status = no_memory(path, error);
-    if (status == FST_OK && hdf5)
-        status = fst_load_hdf5_module(&trajectory->module, path, error);
-    if (status == FST_OK)
-        status = fst_whole_file_open(&trajectory->file, path, error);
-    if (status == FST_OK)
-        status = begin(trajectory, path, hdf5, error);
+    const column_list *columns = &trajectory->columns;
+    const fst_status status = list_columns(beads, &trajectory->columns)
+                                  ? fst_rows_open(&trajectory->file, path, &trajectory->scene, 1, columns->at,
+                                                  columns->count, units, error)
+                                  : no_memory(path, error);
     if (status == FST_OK)
         *out = trajectory;
     else
@@ -198,7 +141,7 @@ fst_status fst_beads_trajectory_create(const char *path, const fst_params *scene
 static void fill(fst_beads_trajectory *trajectory, const fst_beads_sample *sample)
 {
     const int beads = trajectory->columns.beads;
-    double *values = trajectory->values;
+    double *values = trajectory->file.values;
     for (int i = 0; i < trajectory->columns.count; ++i)
         values[i] = NAN;
     values[0] = sample->t;
@@ -219,35 +162,15 @@ static void fill(fst_beads_trajectory *trajectory, const fst_beads_sample *sampl
 fst_status fst_beads_trajectory_append(fst_beads_trajectory *trajectory, const fst_beads_sample *sample,
                                        fst_error *error)
 {
-    const column_list *columns = &trajectory->columns;
     fill(trajectory, sample);
-    for (int i = 0; i < columns->count && trajectory->factors; ++i)
-        trajectory->values[i] *= trajectory->factors[i];
-    if (trajectory->writer)
-        return trajectory->module->row(trajectory->writer, trajectory->values, error);
-    fst_csv_row(trajectory->file.stream, trajectory->values, columns->count);
-    if (ferror(trajectory->file.stream))
-        return fst_fail(error, FST_IO, trajectory->file.path, "writing this file failed: is the disk full?");
-    return FST_OK;
+    return fst_rows_append(&trajectory->file, error);
 }
 
-/* Close it with the line of the result, or without, and free that. */
 static fst_status close_with(fst_beads_trajectory *trajectory, int has_result, char *line, int complete,
                              fst_error *error)
 {
-    fst_status status = FST_OK;
-    if (has_result && !line) {
-        status = no_memory(trajectory->file.path, error);
-    } else if (trajectory->writer) {
-        status = trajectory->module->finish(trajectory->writer, line, complete, trajectory->file.stream, error);
-        trajectory->writer = NULL;
-    } else {
-        fst_csv_end(trajectory->file.stream, line, complete);
-    }
-    free(line);
-    if (status == FST_OK)
-        status = fst_whole_file_commit(&trajectory->file, error);
-    fst_beads_trajectory_discard(trajectory); /* after a commit nothing is left to remove */
+    const fst_status status = fst_rows_close(&trajectory->file, has_result, line, complete, error);
+    fst_beads_trajectory_discard(trajectory);
     return status;
 }
 
@@ -269,13 +192,8 @@ void fst_beads_trajectory_discard(fst_beads_trajectory *trajectory)
 {
     if (!trajectory)
         return;
-    if (trajectory->writer)
-        trajectory->module->abandon(trajectory->writer);
-    fst_whole_file_discard(&trajectory->file);
+    fst_rows_discard(&trajectory->file);
     free_columns(&trajectory->columns);
-    free(trajectory->values);
-    free(trajectory->factors);
-    free(trajectory->units);
     free(trajectory);
 }
 

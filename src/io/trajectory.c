@@ -1,5 +1,4 @@
-/* trajectory.c - files of trajectories: choosing CSV or HDF5 by the ending, the temporary file, and checks that
- * hold for both. */
+/* trajectory.c - files of trajectories of one bead on the plate, in CSV and HDF5. */
 #include <festoon/festoon_tools.h>
 
 #include <errno.h>
@@ -10,24 +9,18 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "base/text.h"
 #include "host/regular_file.h"
-#include "host/whole_file.h"
 #include "io/columns.h"
 #include "io/csv.h"
 #include "io/hdf5_module.h"
 #include "io/json.h"
 #include "io/load_hdf5.h"
+#include "io/rows_file.h"
 
 struct fst_trajectory {
     fst_params params;
-    fst_whole_file file;
-    fst_hdf5_writer *writer; /* NULL: CSV, written to file.stream */
-    const fst_hdf5_module_table *module;
     const fst_column_info *columns[FST_COLUMN_COUNT];
-    int other_units; /* the columns are written times `factors`, in `units` */
-    double factors[FST_COLUMN_COUNT];
-    const char *units[FST_COLUMN_COUNT];
+    fst_rows_file file;
 };
 
 static void list_columns(const fst_column_info *columns[FST_COLUMN_COUNT])
@@ -37,33 +30,6 @@ static void list_columns(const fst_column_info *columns[FST_COLUMN_COUNT])
 }
 
 /* ---------------------------------------------------------------- writing */
-
-/* Begin the file in the format of its ending. */
-static fst_status begin(fst_trajectory *trajectory, const char *path, int hdf5, fst_error *error)
-{
-    char *scene = fst_scene_text(&trajectory->params, 0);
-    if (!scene)
-        return fst_fail(error, FST_NO_MEMORY, path, "out of memory");
-    fst_status status = FST_OK;
-    if (hdf5) {
-        status = trajectory->module->create(trajectory->file.path, trajectory->columns, FST_COLUMN_COUNT, scene,
-                                            &trajectory->writer, error);
-    } else {
-        fst_csv_begin(trajectory->file.stream, 0, scene, trajectory->columns, FST_COLUMN_COUNT,
-                      trajectory->other_units ? trajectory->units : NULL);
-    }
-    free(scene);
-    return status;
-}
-
-static void choose_units(fst_trajectory *trajectory, fst_shown_units units)
-{
-    const fst_scales scales = fst_scales_of(&trajectory->params);
-    trajectory->other_units = units == FST_SHOWN_LAB || units == FST_SHOWN_SI;
-    for (int i = 0; i < FST_COLUMN_COUNT && trajectory->other_units; ++i)
-        trajectory->factors[i] =
-            fst_column_shown(trajectory->columns[i], units, &scales, &trajectory->units[i]);
-}
 
 fst_status fst_trajectory_create(const char *path, const fst_params *params, fst_trajectory **out,
                                  fst_error *error)
@@ -75,67 +41,39 @@ fst_status fst_trajectory_create_in(const char *path, const fst_params *params, 
                                     fst_trajectory **out, fst_error *error)
 {
     *out = NULL;
-    int hdf5 = fst_ends_in(path, ".h5") || fst_ends_in(path, ".hdf5");
-    if (hdf5 && (units == FST_SHOWN_LAB || units == FST_SHOWN_SI))
-        return fst_fail(error, FST_BAD_INPUT, path, "a trajectory in other than scaled units is a .csv");
-    if (!hdf5 && !fst_ends_in(path, ".csv"))
-        return fst_fail(error, FST_BAD_INPUT, path, "the name of a trajectory ends in .h5 or .csv");
     fst_trajectory *trajectory = calloc(1, sizeof *trajectory);
     if (!trajectory)
         return fst_fail(error, FST_NO_MEMORY, path, "out of memory");
     trajectory->params = *params;
     list_columns(trajectory->columns);
-    choose_units(trajectory, units);
-    fst_status status = hdf5 ? fst_load_hdf5_module(&trajectory->module, path, error) : FST_OK;
+    const fst_status status = fst_rows_open(&trajectory->file, path, &trajectory->params, 0,
+                                            trajectory->columns, FST_COLUMN_COUNT, units, error);
     if (status == FST_OK)
-        status = fst_whole_file_open(&trajectory->file, path, error);
-    if (status == FST_OK)
-        status = begin(trajectory, path, hdf5, error);
-    if (status != FST_OK) {
+        *out = trajectory;
+    else
         fst_trajectory_discard(trajectory);
-        return status;
-    }
-    *out = trajectory;
-    return FST_OK;
+    return status;
 }
 
 fst_status fst_trajectory_append(fst_trajectory *trajectory, const fst_sample *sample, fst_error *error)
 {
-    double values[FST_COLUMN_COUNT];
-    fst_column_values(sample, values);
+    const double *values = trajectory->file.values;
+    fst_column_values(sample, trajectory->file.values);
     /* The reader below refuses such a number, so it must not be written. */
     for (int i = 0; i < FST_COLUMN_COUNT; ++i)
         if (!isfinite(values[i]))
-            return fst_fail(error, FST_BAD_INPUT, trajectory->file.path,
+            return fst_fail(error, FST_BAD_INPUT, trajectory->file.whole.path,
                             "this sample is not written: its %s is %g, and a trajectory holds finite numbers",
                             fst_column_at(i)->name, values[i]);
-    for (int i = 0; i < FST_COLUMN_COUNT && trajectory->other_units; ++i)
-        values[i] *= trajectory->factors[i];
-    if (trajectory->writer)
-        return trajectory->module->row(trajectory->writer, values, error);
-    fst_csv_row(trajectory->file.stream, values, FST_COLUMN_COUNT);
-    if (ferror(trajectory->file.stream))
-        return fst_fail(error, FST_IO, trajectory->file.path, "writing this file failed: is the disk full?");
-    return FST_OK;
+    return fst_rows_append(&trajectory->file, error);
 }
 
 fst_status fst_trajectory_close(fst_trajectory *trajectory, const fst_run_result *result, int complete,
                                 fst_error *error)
 {
-    fst_status status = FST_OK;
     char *line = result ? fst_result_line(&trajectory->params, result) : NULL;
-    if (result && !line) {
-        status = fst_fail(error, FST_NO_MEMORY, trajectory->file.path, "out of memory");
-    } else if (trajectory->writer) {
-        status = trajectory->module->finish(trajectory->writer, line, complete, trajectory->file.stream, error);
-        trajectory->writer = NULL;
-    } else {
-        fst_csv_end(trajectory->file.stream, line, complete);
-    }
-    free(line);
-    if (status == FST_OK)
-        status = fst_whole_file_commit(&trajectory->file, error);
-    fst_trajectory_discard(trajectory); /* after a commit nothing is left to remove */
+    const fst_status status = fst_rows_close(&trajectory->file, result != NULL, line, complete, error);
+    free(trajectory);
     return status;
 }
 
@@ -143,9 +81,7 @@ void fst_trajectory_discard(fst_trajectory *trajectory)
 {
     if (!trajectory)
         return;
-    if (trajectory->writer)
-        trajectory->module->abandon(trajectory->writer);
-    fst_whole_file_discard(&trajectory->file);
+    fst_rows_discard(&trajectory->file);
     free(trajectory);
 }
 

@@ -1,6 +1,6 @@
 /* Trajectory files: both formats give back every bit, say whether they are complete, appear whole or not at
  * all, and damaged or foreign files are refused with a sentence.
- * tests: io/trajectory.c io/csv.c io/columns.c io/load_hdf5.c io/hdf5_module.c io/hdf5_session.c
+ * tests: io/trajectory.c io/rows_file.c io/csv.c io/columns.c io/load_hdf5.c io/hdf5_module.c io/hdf5_session.c
  *   host/module.c */
 #include "numeric.h"
 
