@@ -47,19 +47,39 @@ static follow_still still_picture(void)
     return (follow_still){.width = WIDTH, .height = HEIGHT, .level = level, .noise = 2.0};
 }
 
+/* How much of a pixel the discs cover. */
+static double covered_at(double (*places)[2], int count, int column, int row)
+{
+    double covered = 0.0;
+    for (int k = 0; k < count; ++k) {
+        const double x = column - places[k][0], y = row - places[k][1];
+        if (fabs(x) < RADIUS + 1.0 && fabs(y) < RADIUS + 1.0)
+            covered = fmax(covered, fmin(1.0, RADIUS - sqrt(x * x + y * y) + 0.5));
+    }
+    return covered;
+}
+
+/* Noise of one gray level: each picture begins elsewhere in a store of it, because making it takes longer than
+ * following the beads. */
+static const float *noise_of_picture(void)
+{
+    enum { STORE = 1 << 20 };
+    static float store[STORE];
+    for (int i = 0; i < STORE && store[STORE - 1] == 0.0f; ++i)
+        store[i] = (float)grain(&grains);
+    return store + fst_draw(&grains) % (STORE - WIDTH * HEIGHT);
+}
+
 /* Discs of 60 % less light, of which nearer ones cover others, with noise of `noise` gray levels. */
 static void paint(double (*places)[2], int count, double noise)
 {
+    const float *grained = noise_of_picture();
     for (int row = 0; row < HEIGHT; ++row)
         for (int column = 0; column < WIDTH; ++column) {
-            double covered = 0.0;
-            for (int k = 0; k < count; ++k) {
-                const double off = RADIUS - hypot(column - places[k][0], row - places[k][1]);
-                covered = fmax(covered, fmax(0.0, fmin(1.0, off + 0.5)));
-            }
-            const double shown = (double)level[row * WIDTH + column] * (1.0 - 0.6 * covered) +
-                                 (noise > 0.0 ? noise * grain(&grains) : 0.0);
-            frame[row * WIDTH + column] = (unsigned char)(fmax(0.0, fmin(255.0, shown)) + 0.5);
+            const int i = row * WIDTH + column;
+            const double covered = covered_at(places, count, column, row);
+            const double shown = (double)level[i] * (1.0 - 0.6 * covered) + noise * (double)grained[i];
+            frame[i] = (unsigned char)((shown < 0.0 ? 0.0 : shown > 255.0 ? 255.0 : shown) + 0.5);
         }
 }
 
