@@ -34,7 +34,8 @@ static double noise(uint64_t *chance)
 /* How much of a disc is at a distance from its centre, whose outline goes over so many pixels. */
 static double disc(double distance, double radius, double soft)
 {
-    return 0.5 * erfc((distance - radius) / (soft * sqrt(2.0)));
+    const double off = (distance - radius) / soft;
+    return off < -5.0 ? 1.0 : off > 5.0 ? 0.0 : 0.5 * erfc(off / sqrt(2.0));
 }
 
 /* By which part of the background's level it is darker at a place from the bead's centre: the bead covers its
@@ -43,9 +44,9 @@ static double darkness(const scene *s, double x, double y)
 {
     const double way = 2.0 * s->away * s->radius;
     const double lit = s->lit * fmax(0.0, -(x * cos(side) + y * sin(side)) / s->radius);
-    const double bead = disc(hypot(x, y), s->radius, 0.8);
-    const double shade =
-        s->dark * disc(hypot(x - way * cos(side), y - way * sin(side)), s->radius, s->fuzzy * s->radius);
+    const double dx = x - way * cos(side), dy = y - way * sin(side);
+    const double bead = disc(sqrt(x * x + y * y), s->radius, 0.8);
+    const double shade = s->dark * disc(sqrt(dx * dx + dy * dy), s->radius, s->fuzzy * s->radius);
     return s->contrast * bead * (1.0 - lit) + fabs(s->contrast) * (1.0 - bead) * shade;
 }
 
@@ -53,15 +54,15 @@ static void paint(const scene *s, const double place[2], double turn, uint64_t *
                   unsigned char *out)
 {
     const int moments = 1 + (int)s->blur;
-    const double reach = 4.0 * s->radius + s->blur + 4.0;
+    const double reach = 4.0 * s->radius + s->blur + 4.0, along[2] = {cos(turn), sin(turn)};
     for (int row = 0; row < HEIGHT; ++row)
         for (int column = 0; column < WIDTH; ++column) {
             const int at = row * WIDTH + column;
             const double x = column - place[0], y = row - place[1];
             double dark = 0.0;
-            for (int k = 0; k < moments && hypot(x, y) < reach; ++k) {
+            for (int k = 0; k < moments && x * x + y * y < reach * reach; ++k) {
                 const double way = s->blur * ((k + 0.5) / moments - 0.5);
-                dark += darkness(s, x - way * cos(turn), y - way * sin(turn)) / moments;
+                dark += darkness(s, x - way * along[0], y - way * along[1]) / moments;
             }
             const double shown = (double)level[at] * (1.0 - dark) + noise(chance);
             out[at] = (unsigned char)(fmax(0.0, fmin(255.0, shown)) + 0.5);

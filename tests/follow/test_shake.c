@@ -34,32 +34,54 @@ static texture make_texture(uint64_t *chance, double size)
     return t;
 }
 
-static double level_at(const texture *t, double x, double y)
+/* The levels at a row of places, each `step` beyond the one before, so that each wave turns by the same angle. */
+static void levels_along(const texture *t, double x, double y, const double step[2], double level[WIDTH])
 {
-    double sum = 150.0;
-    for (int i = 0; i < WAVES; ++i)
-        sum += t->waves[i][3] * sin(t->waves[i][0] * x + t->waves[i][1] * y + t->waves[i][2]);
-    return sum;
+    for (int k = 0; k < WIDTH; ++k)
+        level[k] = 150.0;
+    for (int i = 0; i < WAVES; ++i) {
+        const double *wave = t->waves[i], begin = wave[0] * x + wave[1] * y + wave[2];
+        const double turn = wave[0] * step[0] + wave[1] * step[1], c = cos(turn), s = sin(turn);
+        double sine = wave[3] * sin(begin), cosine = wave[3] * cos(begin);
+        for (int k = 0; k < WIDTH; ++k) {
+            level[k] += sine;
+            const double next = sine * c + cosine * s;
+            cosine = cosine * c - sine * s;
+            sine = next;
+        }
+    }
 }
 
 static float picture[WIDTH * HEIGHT], gains[HEIGHT];
 static unsigned char frame[WIDTH * HEIGHT];
 
+static void draw_picture(const texture *t)
+{
+    static const double step[2] = {1.0, 0.0};
+    for (int row = 0; row < HEIGHT; ++row) {
+        double level[WIDTH];
+        levels_along(t, 0.0, row, step, level);
+        for (int column = 0; column < WIDTH; ++column)
+            picture[row * WIDTH + column] = (float)level[column];
+    }
+}
+
 /* A frame that is shifted, turned clockwise about its middle, dimmed, noisy, and has a bead on it. */
 static void film(const texture *t, const double shift[2], double roll, double dim, double noise,
                  uint64_t *chance)
 {
-    for (int row = 0; row < HEIGHT; ++row)
+    const double step[2] = {cos(roll), -sin(roll)}, middle[2] = {0.5 * (WIDTH - 1), 0.5 * (HEIGHT - 1)};
+    for (int row = 0; row < HEIGHT; ++row) {
+        const double x = -shift[0] - middle[0], y = row - shift[1] - middle[1];
+        double level[WIDTH];
+        levels_along(t, middle[0] + cos(roll) * x + sin(roll) * y, middle[1] - sin(roll) * x + cos(roll) * y,
+                     step, level);
         for (int column = 0; column < WIDTH; ++column) {
             const int bead = hypot(column - 200.0, row - 90.0) < 15.0;
-            const double middle[2] = {0.5 * (WIDTH - 1), 0.5 * (HEIGHT - 1)}, x = column - shift[0] - middle[0],
-                         y = row - shift[1] - middle[1];
-            const double level = bead ? 40.0
-                                      : level_at(t, middle[0] + cos(roll) * x + sin(roll) * y,
-                                                 middle[1] - sin(roll) * x + cos(roll) * y);
-            frame[row * WIDTH + column] =
-                (unsigned char)fmax(0.0, fmin(255.0, dim * level + noise * (even(chance) - 0.5) + 0.5));
+            const double shown = dim * (bead ? 40.0 : level[column]) + noise * (even(chance) - 0.5) + 0.5;
+            frame[row * WIDTH + column] = (unsigned char)fmax(0.0, fmin(255.0, shown));
         }
+    }
 }
 
 /* A texture of three gray levels tells shifts of up to 15 pixels to a twentieth of one, a faint one to a tenth; shifted back, the frame is the
@@ -76,8 +98,7 @@ static void shifts(void **state)
         double found[2] = {0.0, 0.0}, squares = 0.0;
         follow_shake shake;
         int count = 0;
-        for (int i = 0; i < WIDTH * HEIGHT; ++i)
-            picture[i] = (float)level_at(&t, i % WIDTH, i / WIDTH);
+        draw_picture(&t);
         for (int row = 0; row < HEIGHT; ++row)
             gains[row] = (float)dim;
         film(&t, shift, 0.0, dim, 6.0, &chance);
@@ -114,8 +135,7 @@ static void rolls(void **state)
                      shift[2] = {6.0 * even(&chance) - 3.0, 6.0 * even(&chance) - 3.0};
         double found[2] = {0.0, 0.0};
         follow_shake shake;
-        for (int i = 0; i < WIDTH * HEIGHT; ++i)
-            picture[i] = (float)level_at(&t, i % WIDTH, i / WIDTH);
+        draw_picture(&t);
         for (int row = 0; row < HEIGHT; ++row)
             gains[row] = 1.0f;
         film(&t, shift, roll, 1.0, 6.0, &chance);
@@ -139,8 +159,7 @@ static void halves_of_a_chequerboard(void **state)
     const double still[2] = {0.0, 0.0}, moved[2] = {1.5, -2.0}, roll = 0.01;
     double squares = 0.0, products = 0.0, turns = 0.0, product, turned;
     follow_shake shake;
-    for (int i = 0; i < WIDTH * HEIGHT; ++i)
-        picture[i] = (float)level_at(&t, i % WIDTH, i / WIDTH);
+    draw_picture(&t);
     for (int row = 0; row < HEIGHT; ++row)
         gains[row] = 1.0f;
     assert_true(follow_shake_begin(&shake, picture, WIDTH, HEIGHT, 4));
