@@ -17,6 +17,8 @@ from .runs import REGIMES
 #: The most curves that stand side by side; a sweep with more values of both parameters is a map.
 _MOST_CURVES = 7
 _CURVES = ("blue", "vermilion", "green", "purple", "sky", "orange", "black")
+#: matplotlib's signs of what has no value.
+_GAPS = {"undecided": "+", "ejected": "^", "lifted": "v", "touched": "d", "lost": "*", "failed": "x"}
 
 
 class _Side:
@@ -157,10 +159,28 @@ def _about_sweep(s: Any) -> str:
 
 def _regime_marks(ax: Any, x: Any, y: Any, regimes: Any) -> None:
     size = 22 if len(x) <= 80 else 9
-    for i in np.unique(regimes[np.isfinite(regimes)]).astype(int):
+    for i in np.unique(regimes[np.isfinite(regimes) & np.isfinite(y)]).astype(int):
         words, colour = _style.look("regime", i)
         here = regimes == i
         ax.scatter(x[here], y[here], s=size, color=colour, label=words, linewidths=0, zorder=3)
+
+
+def _gap_marks(ax: Any, x: Any, states: Any, hidden: Any, level: int, code: str) -> int:
+    """Signs at the lower edge where a run failed, or was ejected or undecided, but for those `hidden`; returns how many."""
+    count = 0
+    for word, marker in _GAPS.items():
+        here = (states == word) & ~hidden
+        label = f"failed: {here.sum()} point{'s' if here.sum() > 1 else ''}" if word == "failed" else word
+        colour = "black" if word == "failed" else _style.look("regime", list(REGIMES).index(word))[1]
+        if any(line.get_label() == label for line in ax.lines):
+            label = "_"  # no second line in the key
+        if here.any():
+            ax.plot(
+                x[here], np.full(here.sum(), 0.03 + 0.04 * level), transform=ax.get_xaxis_transform(), label=label, marker=marker,
+                linestyle="none", color=code or colour, markersize=5, markerfacecolor="none", zorder=4,
+            )
+        count += int(here.sum())
+    return count
 
 
 def _curves(s: Any, y: str, sides: List[_Side], units: str, free: bool, ax: Any) -> Any:
@@ -182,14 +202,25 @@ def _curves(s: Any, y: str, sides: List[_Side], units: str, free: bool, ax: Any)
     if len(sides) == 1:
         ax.plot(across, values[:, 0], color="#b0b0b0", linewidth=0 if y == "regime" else 1.2, zorder=2)
         _regime_marks(ax, across, values[:, 0], _regime_index(s)[order])
+    states = np.where(s.failed, "failed", np.where(s.computed, s.regime, ""))
+    states = np.moveaxis(states, sides[0].along, 0).reshape(len(sides[0].values), -1)[order]
     for i in range(values.shape[1] if len(sides) == 2 else 0):
         ax.plot(
             across, values[:, i], color=_style.colour(_CURVES[i % len(_CURVES)]), linewidth=1.5, marker="o",
             linestyle="none" if y == "regime" else "-", markersize=3 if len(across) <= 80 else 1.5,
             label=sides[1].text(i),
         )
+    levels = 0
+    for i in range(values.shape[1]):
+        code = _style.colour(_CURVES[i % len(_CURVES)]) if len(sides) == 2 else ""
+        hidden = np.isfinite(values[:, i]) & (len(sides) == 1 or y == "regime")
+        levels += _gap_marks(ax, across, states[:, i], hidden, levels, code) > 0
+    if levels:  # no value lies over the signs
+        low, high = ax.get_ylim()
+        room = 0.02 + 0.04 * levels
+        ax.set_ylim(low - room / (1 - room) * (high - low), high)
     sides[0].dress(ax.xaxis, ax.set_xscale)
-    if y != "regime" or len(sides) == 2:
+    if levels or y != "regime" or len(sides) == 2:
         _style.key_below(ax, title=sides[1].label if len(sides) == 2 else None)
     return ax
 

@@ -116,7 +116,7 @@ def test_sweep_of_two_parameters():
     bead = fs.Bead(run__periods=30)
     s = fs.sweep(bead, frequency=[9.0, 10.0, 14.0, 18.0], kappa=[1.8, 1.2])
     ax = s.plot("std_r")
-    assert words(ax) == ["1.8", "1.2"]
+    assert words(ax) == ["1.8", "1.2", "undecided"] and (s.regime == "undecided").any()
     for i in range(2):
         assert np.allclose(curve(ax, i)[1], 23 * s.std_r[:, i], rtol=1e-12)
     ax = s.plot("std_r", kind="map")
@@ -133,6 +133,16 @@ def test_failed_runs_are_gaps_and_named():
     s = fs.sweep(fs.Bead(run__periods=20), start__r=[0.5, 0.0], frequency=[10.0, 11.0])
     assert s.failed.any() and not s.failed.all()
     assert "failed" in words(s.plot(kind="map"))
+    # Signs at the lower edge of the curves, below every value: one line for each curve that lacks some.
+    ax = s.plot("mean_r", x="frequency")
+    signs = [line for line in ax.lines if line.get_linestyle() == "None"]
+    assert [line.get_marker() for line in signs if line.get_color() != ax.lines[0].get_color()] == ["x"]
+    assert "failed: 2 points" in words(ax) and signs[-1].get_xdata().tolist() == [10, 11]
+    ax = s[:, 0].plot("mean_r", x="start__r")
+    sign = ax.lines[-1]
+    assert words(ax)[-1] == "failed: 1 point" and sign.get_xdata().tolist() == [0]
+    low = ax.transAxes.inverted().transform(ax.transData.transform((0, np.nanmin(ax.lines[0].get_ydata()))))[1]
+    assert 0 < sign.get_ydata()[0] < low - 0.02
 
 
 def test_choices_have_their_names():

@@ -114,8 +114,8 @@ static void range_of(const fst_chart_curve *curves, int count, int abscissa, int
 }
 
 /* The range of the left ordinate: the panel's, or one about values that are equal or tiny and nearly equal,
- * whose tics gnuplot would number with more digits than there is room for; 0: gnuplot finds one. */
-static int own_range(const fst_chart_panel *panel, double *low, double *high)
+ * whose tics gnuplot would number with more digits than there is room for; 0: gnuplot finds one beyond this. */
+static int range_of_values(const fst_chart_panel *panel, double *low, double *high)
 {
     *low = panel->low;
     *high = panel->high;
@@ -129,6 +129,22 @@ static int own_range(const fst_chart_panel *panel, double *low, double *high)
     const double more = greatest > 0.0 ? 0.2 * greatest : 1.0;
     *low = *low > 0.0 && greatest < 1e-3 ? 0.0 : *low - more;
     *high = *high < 0.0 && greatest < 1e-3 ? 0.0 : *high + more;
+    return 1;
+}
+
+/* The same with free room below the values for signs of the right ordinate, which has no label. */
+static int own_range(const fst_chart_panel *panel, double *low, double *high)
+{
+    const int own = range_of_values(panel, low, high);
+    double lowest = NAN, highest = NAN;
+    range_of(panel->curves, panel->curve_count, 0, 1, &lowest, &highest);
+    if (panel->right_label || !(highest > 0.0))
+        return own;
+    if (!(*low <= *high))
+        *low = 0.0, *high = 1.0; /* there are signs alone */
+    const double room = highest + lowest;
+    *high += own ? 0.0 : 0.05 * (*high - *low);
+    *low -= room / (1.0 - room) * (*high - *low);
     return 1;
 }
 

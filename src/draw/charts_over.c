@@ -43,6 +43,8 @@ static fst_chart_panel *panel_for(fst_chart_panel *panels, int *count, const fst
         if (same_text(panels[p].left_label, one->left_label)) {
             panels[p].low = fmin(panels[p].low, one->low); /* NAN, from the data, stays where both are */
             panels[p].high = fmax(panels[p].high, one->high);
+            panels[p].right_high = fmax(panels[p].right_high, one->right_high); /* of the signs at the edge */
+            panels[p].tics = one->tics ? panels[p].tics : NULL;
             return &panels[p];
         }
     panels[*count] = *one;
@@ -69,16 +71,37 @@ static int has_point(const fst_chart_curve *curve)
     return 0;
 }
 
+/* Whether a curve is of signs at the edge of its panel (fst_sweep_curves()). */
+static int is_at_edge(const fst_chart_curve *curve)
+{
+    return curve->style == FST_CURVE_OPEN_POINTS && curve->right;
+}
+
 /* Whether a curve may bear the name of its chart: not what is unstable, special points, and lines beside others. */
 static int is_main(const fst_chart_curve *curve)
 {
-    return curve->style != FST_CURVE_DASHED && curve->style != FST_CURVE_SIGNS &&
+    return !is_at_edge(curve) && curve->style != FST_CURVE_DASHED && curve->style != FST_CURVE_SIGNS &&
            curve->style != FST_CURVE_THIN && has_point(curve);
 }
 
-/* Take the curves of one panel over, in one colour.  `name` is that of its chart, until a curve has it. */
+/* Make a curve one of several at the edge: `level` lines higher, because another chart may have signs at the same place, and
+ * with the name of its chart where no other curve has it. */
+static int lift_signs(fst_chart *all, fst_chart_curve *curve, int level, const char *name)
+{
+    double *y = fst_chart_keep(all, (curve->count + 1) * sizeof *y);
+    char words[192];
+    for (size_t i = 0; y && i < curve->count; ++i)
+        y[i] = curve->y[i] + 0.04 * level;
+    curve->y = y;
+    (void)snprintf(words, sizeof words, "%s%s%s", name ? name : "", name ? ": " : "", curve->title);
+    curve->title = fst_chart_text(all, words);
+    return y && curve->title;
+}
+
+/* Take the curves of one panel over, in one colour: those at the edge on their level, or (-1) the others.  `name` is that of
+ * its chart, until a curve has it. */
 static int take_curves(fst_chart *all, fst_chart_panel *panels, int count, fst_chart_panel *panel,
-                       const fst_chart_panel *one, fst_colour colour, const char **name)
+                       const fst_chart_panel *one, fst_colour colour, int level, const char **name)
 {
     const size_t sum = (size_t)(panel->curve_count + one->curve_count);
     fst_chart_curve *curves = fst_chart_keep(all, (sum + 1) * sizeof *curves);
@@ -89,6 +112,10 @@ static int take_curves(fst_chart *all, fst_chart_panel *panels, int count, fst_c
     for (int c = 0; c < one->curve_count; ++c) {
         fst_chart_curve curve = one->curves[c];
         curve.colour = colour;
+        if (is_at_edge(&curve) != (level >= 0))
+            continue;
+        if (level >= 0 && !lift_signs(all, &curve, level, *name))
+            return 0;
         if (is_main(&curve)) {
             curve.title = *name;
             *name = NULL;
@@ -101,17 +128,38 @@ static int take_curves(fst_chart *all, fst_chart_panel *panels, int count, fst_c
 }
 
 static int take_chart(fst_chart *all, fst_chart_panel *panels, int *count, const fst_chart *one,
-                      fst_colour colour, const char *name)
+                      fst_colour colour, int level, const char **name)
+{
+    int good = 1;
+    for (int p = 0; p < one->panel_count && good; ++p) {
+        fst_chart_panel *panel = panel_for(panels, count, &one->panels[p]);
+        good = take_curves(all, panels, *count, panel, &one->panels[p], colour, level, name);
+    }
+    return good;
+}
+
+/* The signs at the edges, behind all else. */
+static int take_signs(fst_chart *all, fst_chart_panel *panels, int *panel_count, fst_chart *const *charts,
+                      const char **names, int count)
+{
+    int level = 0, good = 1;
+    for (int i = 0; i < count && good; ++i) {
+        int has_some = 0;
+        for (int p = 0; p < charts[i]->panel_count; ++p)
+            for (int c = 0; c < charts[i]->panels[p].curve_count; ++c)
+                has_some |= is_at_edge(&charts[i]->panels[p].curves[c]);
+        good = take_chart(all, panels, panel_count, charts[i], fst_chart_colour(i), level, &names[i]);
+        level += has_some;
+    }
+    return good;
+}
+
+/* The name of a chart in the key. */
+static const char *own_name(fst_chart *all, const char *name)
 {
     char words[128];
     fst_plain_words(name, words, sizeof words);
-    const char *own = fst_chart_text(all, words);
-    int good = own != NULL;
-    for (int p = 0; p < one->panel_count && good; ++p) {
-        fst_chart_panel *panel = panel_for(panels, count, &one->panels[p]);
-        good = take_curves(all, panels, *count, panel, &one->panels[p], colour, &own);
-    }
-    return good;
+    return fst_chart_text(all, words);
 }
 
 /* What is of the whole chart is that of the first one. */
@@ -127,6 +175,7 @@ static void begin(fst_chart *all, const fst_chart *first, const char *about)
 fst_status fst_charts_over(fst_chart *const *charts, const char *const *names, int count, const char *about,
                            fst_chart **all, fst_error *error)
 {
+    const char *own[FST_CHARTS_OVER]; /* the names that no curve has yet */
     size_t most = 1;
     for (int i = 0; i < count; ++i)
         most += (size_t)charts[i]->panel_count;
@@ -142,8 +191,11 @@ fst_status fst_charts_over(fst_chart *const *charts, const char *const *names, i
             made->scene = NULL; /* each file has its own */
         status = lay_abscissa(made, charts[0], charts[i], error);
         if (status == FST_OK)
-            good = take_chart(made, panels, &panel_count, charts[i], fst_chart_colour(i), names[i]);
+            good = (own[i] = own_name(made, names[i])) &&
+                   take_chart(made, panels, &panel_count, charts[i], fst_chart_colour(i), -1, &own[i]);
     }
+    if (good && status == FST_OK)
+        good = take_signs(made, panels, &panel_count, charts, own, count);
     if (good && status == FST_OK) {
         made->panels = panels;
         made->panel_count = panel_count;

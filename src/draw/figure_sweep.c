@@ -237,6 +237,7 @@ static fst_status read_sweep(const char *path, const fst_sweep_figure *options, 
         s->is_map = wants_map(grid, options, &s->slice);
         status = choose_quantities(grid, options, units, s, keys, error);
     }
+    keys[s->count] = fst_sweep_state_key(grid);
     if (status == FST_OK && options->kind == FST_FIGURE_MAP && !s->is_map)
         status = fst_fail(error, FST_BAD_INPUT, "fst_sweep_figure.kind", "a map needs a sweep over two axes");
     if (status == FST_OK && !s->is_map && is_random(grid))
@@ -245,7 +246,7 @@ static fst_status read_sweep(const char *path, const fst_sweep_figure *options, 
     if (status != FST_OK)
         return status;
     return s->is_map ? fst_sweep_read_filled(path, keys, s->count, &s->table, error)
-                     : fst_sweep_read(path, keys, s->count, &s->table, error);
+                     : fst_sweep_read(path, keys, s->count + 1, &s->table, error);
 }
 
 /* ------------------------------------------------------------------ curves */

@@ -4,8 +4,9 @@
 
 #include "draw/figure_sweep_axes.h"
 
-/* A chart of keys over the one axis of a slice, which fst_chart_free() frees.  Plain: without the colours of regimes, to be
- * laid over others. */
+/* A chart of keys over the one axis of a slice, which fst_chart_free() frees.  Behind these the table has the key of
+ * fst_sweep_state_key(): signs at the lower edge tell which points failed, or were ejected, or undecided.  Plain: without
+ * the colours of regimes, to be laid over others. */
 fst_status fst_sweep_curves(const fst_sweep_table *table, const fst_sweep_quantity *quantities, int count,
                             const fst_sweep_slice *slice, int plain, fst_chart **chart, fst_error *error);
 

@@ -239,6 +239,12 @@ const fst_sweep_names *fst_sweep_names_of(const char *key)
                                                                     : NULL;
 }
 
+const char *fst_sweep_state_key(const fst_grid *grid)
+{
+    const fst_row_kind kind = fst_grid_row_kind(grid);
+    return kind == FST_ROWS_OF_BEADS ? "outcome" : kind == FST_ROWS_OF_LEVITATION ? "below" : "regime";
+}
+
 int fst_sweep_result_tics(const char *key, char *tics, size_t size)
 {
     const fst_sweep_names *names = fst_sweep_names_of(key);

@@ -43,6 +43,9 @@ typedef struct fst_sweep_names {
 } fst_sweep_names;
 const fst_sweep_names *fst_sweep_names_of(const char *key);
 
+/* The key of rows that says what became of a point; it has no value where the run failed. */
+const char *fst_sweep_state_key(const fst_grid *grid);
+
 /* The colour of a regime in all figures. */
 fst_colour fst_regime_colour(int regime);
 

@@ -15,6 +15,8 @@ typedef struct drawing {
     fst_chart *chart;
     size_t points;   /* how many are drawn */
     int64_t *chosen; /* which ones */
+    int *gaps;       /* what each of them is, a row of `signs`; -1: a motion, or not run */
+    int all_gaps;    /* there is no motion among them, an undecided one neither */
     double *x;
     fst_chart_curve *curves;
     fst_chart_panel *panels;
@@ -70,6 +72,61 @@ static int add_regimes(drawing *d, const double *regime, const double *values)
     return 1;
 }
 
+/* Points without a motion whose values count, and gnuplot's numbers of their signs.  The last one has no regime. */
+static const struct {
+    const char *word;
+    int sign;
+} signs[] = {{"undecided", 1}, {"ejected", 8}, {"lifted", 10}, {"touched", 12}, {"lost", 3}, {"failed", 2}};
+enum { UNDECIDED, SIGNS = sizeof signs / sizeof *signs, FAILED = SIGNS - 1 };
+
+static const double EDGE = 0.03; /* how high signs stand over the lower edge, in parts of the panel */
+
+/* Which of these the points are that are drawn; the key of their states is the one behind `count` others.  0: no memory. */
+static int note_gaps(drawing *d, int count)
+{
+    const fst_sweep_names *names = fst_sweep_names_of(fst_sweep_state_key(d->table->grid));
+    const double *states = values_of(d, count, 1.0);
+    d->gaps = fst_chart_keep(d->chart, (d->points + 1) * sizeof *d->gaps);
+    d->all_gaps = d->points > 0;
+    for (size_t i = 0; states && d->gaps && i < d->points; ++i) {
+        const int failed = isnan(states[i]) && d->table->computed[d->chosen[i]];
+        d->gaps[i] = failed ? FAILED : -1;
+        for (int g = 0; g < FAILED && isfinite(states[i]); ++g)
+            if (fst_name_place(signs[g].word, names->words) == (int)states[i])
+                d->gaps[i] = g;
+        d->all_gaps &= d->gaps[i] > UNDECIDED;
+    }
+    return states && d->gaps;
+}
+
+/* Add signs at the lower edge of a panel for points without a value; unless names or colours tell what a point is, for those
+ * with one too.  0: no memory. */
+static int add_signs(drawing *d, const double *values, int told)
+{
+    const fst_sweep_names *names = fst_sweep_names_of(fst_sweep_state_key(d->table->grid));
+    char failed[48];
+    size_t count = 0;
+    for (size_t i = 0; i < d->points; ++i)
+        count += d->gaps[i] == FAILED;
+    (void)snprintf(failed, sizeof failed, "failed: %zu point%s", count, count == 1 ? "" : "s");
+    for (int g = 0; g < SIGNS; ++g) {
+        double *y = fst_chart_keep(d->chart, (d->points + 1) * sizeof *y);
+        const char *title = fst_chart_text(d->chart, g == FAILED ? failed : signs[g].word);
+        if (!y || !title)
+            return 0;
+        for (size_t i = 0; i < d->points; ++i)
+            y[i] = d->gaps[i] == g && !(told && isfinite(values[i])) ? EDGE : NAN;
+        if (!any_value(y, d->points))
+            continue;
+        add_curve(d, y, title,
+                  g == FAILED ? FST_COLOUR_BLACK : names->colours[fst_name_place(signs[g].word, names->words)],
+                  FST_CURVE_OPEN_POINTS);
+        d->curves[d->curve_count - 1].right = 1;
+        d->curves[d->curve_count - 1].sign = signs[g].sign;
+    }
+    return 1;
+}
+
 /* A panel for one key, whose points have the colours of their regimes where these are given.  0: no memory. */
 static int add_panel(drawing *d, const fst_sweep_quantity *quantity, const double *values, const double *regime,
                      fst_curve_style style)
@@ -77,15 +134,21 @@ static int add_panel(drawing *d, const fst_sweep_quantity *quantity, const doubl
     char tics[256];
     fst_chart_panel *panel = &d->panels[d->panel_count++];
     const int names = fst_sweep_result_tics(quantity->key, tics, sizeof tics), first = d->curve_count;
+    const int empty = !any_value(values, d->points); /* there are signs alone */
     *panel = (fst_chart_panel){.left_label = fst_chart_text(d->chart, quantity->label),
                                .low = names ? -0.5 : NAN,
                                .high = names ? names - 0.5 : NAN,
-                               .tics = names ? fst_chart_text(d->chart, tics) : NULL,
+                               .right_high = 1.0,
+                               .tics = names   ? fst_chart_text(d->chart, tics)
+                                       : empty ? "('' 0)"
+                                               : NULL,
                                .curves = &d->curves[first]};
     if (!panel->left_label || (names && !panel->tics) || (regime && !add_regimes(d, regime, values)))
         return 0;
     if (!regime)
         add_curve(d, values, NULL, FST_COLOUR_BLUE, names ? FST_CURVE_POINTS : style);
+    if (!add_signs(d, values, regime || names))
+        return 0;
     panel->curve_count = d->curve_count - first;
     return 1;
 }
@@ -106,7 +169,7 @@ static int add_panels(drawing *d, const fst_sweep_quantity *quantities, int coun
         const double *values = values_of(d, k, quantities[k].factor);
         if (!values)
             return 0;
-        if (!any_value(values, d->points))
+        if (!any_value(values, d->points) && !(plain && d->all_gaps))
             mention_empty(d, quantities[k].label);
         else if (!add_panel(d, &quantities[k], values, regime, style))
             return 0;
@@ -189,9 +252,11 @@ static fst_status fill(drawing *d, const fst_sweep_quantity *quantities, int cou
 {
     const size_t step = choose_points(d, slice);
     d->x = fst_chart_keep(d->chart, (d->points + 1) * sizeof *d->x);
-    d->curves = fst_chart_keep(d->chart, (size_t)(count * FST_REGIME_COUNT) * sizeof *d->curves);
+    d->curves = fst_chart_keep(d->chart, (size_t)(count * (FST_REGIME_COUNT + SIGNS)) * sizeof *d->curves);
     d->panels = fst_chart_keep(d->chart, (size_t)count * sizeof *d->panels);
     if (step == 0 || !d->x || !d->curves || !d->panels)
+        return FST_NO_MEMORY;
+    if (!note_gaps(d, count))
         return FST_NO_MEMORY;
     lay_abscissa(d, &slice->axes[0]);
     fst_sweep_about(d->table, slice, d->about, sizeof d->about);

@@ -31,14 +31,30 @@ class Figures(Case):
         return list(csv.DictReader(io.StringIO(self.rows(name))))
 
     def plot(self, name, *options):
-        """The script and the data blocks, {name: [[number]]}."""
+        """The script and the data blocks, {name: [[number]]}; signs at the edges of panels are in self.signs, [(block, words,
+        [[number]])]."""
         self.good("plot", self.path(name), *options, "-o", self.path("figure.svg"))
         self.assertIn("<svg", content_of(self.path("figure.svg"), "r")[:2000])
-        blocks = {}
+        return self.figure()
+
+    def figure(self):
+        blocks, script = {}, content_of(self.path("figure.gp"), "r")
+        edges, self.signs = re.findall(r"'(panel\d+-curve\d+)' using 1:2 axes x1y2", script), []
         for text in content_of(self.path("figure.dat"), "r").split("\n\n\n"):
-            name, _, *lines = text.strip("\n").split("\n")
-            blocks[name[2:]] = [[float(word) for word in line.split()] for line in lines if line]
-        return content_of(self.path("figure.gp"), "r"), blocks
+            name, words, *lines = text.strip("\n").split("\n")
+            numbers = [[float(word) for word in line.split()] for line in lines if line and "nan" not in line]
+            if name[2:] in edges:
+                self.signs.append((name[2:], words[2:], numbers))
+            else:
+                blocks[name[2:]] = [[float(word) for word in line.split()] for line in lines if line]
+        return script, blocks
+
+    def over(self, *names_and_options):
+        self.good("plot", *[self.path(word) if word.endswith((".db", ".json", ".csv")) else word for word in names_and_options],
+                  "-o", self.path("figure.svg"))
+        script, blocks = self.figure()
+        colours = dict(re.findall(r"'(panel\d-curve\d)'.* lc rgb '(#\w+)' notitle", script))
+        return script, blocks, colours
 
     def cells(self, name, *options):
         """Each cell of a heat map: x, y, x_low, x_high, y_low, y_high, value."""
@@ -325,17 +341,6 @@ class Slices(Figures):
 class Over(Figures):
     """Files over each other: each has its own rows in its own colour, and a name that says what differs."""
 
-    def over(self, *names_and_options):
-        self.good("plot", *[self.path(word) if word.endswith((".db", ".json", ".csv")) else word for word in names_and_options],
-                  "-o", self.path("figure.svg"))
-        blocks = {}
-        for text in content_of(self.path("figure.dat"), "r").split("\n\n\n"):
-            name, _, *lines = text.strip("\n").split("\n")
-            blocks[name[2:]] = [[float(word) for word in line.split()] for line in lines if line]
-        script = content_of(self.path("figure.gp"), "r")
-        colours = dict(re.findall(r"'(panel\d-curve\d)'.* lc rgb '(#\w+)' notitle", script))
-        return script, blocks, colours
-
     def test_two_sweeps_and_a_branch(self):
         axis = "drive.frequency=9Hz:15Hz:4"
         rows = self.sweep("plain.db", axis)
@@ -402,6 +407,75 @@ class Over(Figures):
         self.assertIn("no sweep of these varies", self.refused("plot", *[self.path("f.db")] * 2, "--only", "start.r=1", *out))
         for kind in ((), ("--kind", "curves")):
             self.over("f.db", "two.db", "--only", "model.kappa=1.5", *kind)
+
+
+class Signs(Figures):
+    """Signs at the lower edge say why a curve has a gap: a run failed, its bead was ejected, or its motion is undecided."""
+
+    def setUp(self):
+        super().setUp()
+        for name, kappa in (("a.db", "1.1"), ("b.db", "1.2")):
+            self.good("sweep", "--set", "run.periods=12", "--set", "run.discard=4", "--set", "start.r=0.7", "--set", "plate.radius=21.3mm",
+                      "--set", f"model.kappa={kappa}", "--over", "drive.frequency=8Hz:22Hz:8", "-o", self.path(name))
+            change(self.path(name), "UPDATE rows SET status = 'failed', regime = NULL, mean_r = NULL, std_r = NULL, "
+                                    "mean_alpha_dot = NULL WHERE point IN (0, 5)")
+
+    def wanted(self, name, told):
+        """{words: [abscissa]} of one panel; `told`: something else tells of the undecided motions that have values."""
+        found = {}
+        for row in csv.DictReader(io.StringIO(self.rows(name))):
+            word = row["regime"] or "failed: 2 points"
+            if word in ("ejected", "failed: 2 points") or (word == "undecided" and not (told and row["mean_r"])):
+                found.setdefault(word, []).append(float(row["drive.frequency"]))
+        self.assertEqual(found["failed: 2 points"], [8, 18])
+        return found
+
+    def test_of_one_sweep(self):
+        for options, told, panels in (((), True, 3), (("--quantity", "mean_r"), False, 1)):
+            wanted = self.wanted("a.db", told)
+            self.assertIn("ejected", wanted)
+            self.assertEqual("undecided" in wanted, not told, "this sweep has undecided runs, with values")
+            script, blocks = self.plot("a.db", *options)
+            self.assertEqual(len(self.signs), panels * len(wanted))
+            for _, said, points in self.signs:
+                self.assertIn(said, words(script))
+                self.assertEqual([x for x, _ in points], wanted[said], said)
+                self.assertTrue(all(0 < y < 0.1 for _, y in points))
+            # Nothing lies below the signs' place.
+            low, high = map(float, re.findall(r"set yrange \[(.*?):(.*?)\]", script)[0])
+            drawn = [y for name, rows in blocks.items() if name.startswith("panel1") for _, y in rows]
+            self.assertGreater((min(drawn) - low) / (high - low), 0.059)
+            self.assertLess(max(drawn), high)
+        # In a panel of names a row tells of ejected and undecided ones.
+        self.plot("a.db", "--quantity", "regime")
+        self.assertEqual([said for _, said, _ in self.signs], ["failed: 2 points"])
+
+    def test_a_point_without_a_row_has_no_sign(self):
+        change(self.path("a.db"), "DELETE FROM rows WHERE point = 5")
+        self.assertIn("failed: 1 point'", self.plot("a.db")[0])
+
+    def test_of_several(self):
+        """One line of signs for each, in its colour; a file of which nothing else is drawn has its name there."""
+        change(self.path("b.db"), "UPDATE rows SET regime = 'ejected', mean_r = NULL WHERE regime IS NOT NULL")
+        script, blocks, colours = self.over("a.db", "b.db", "--quantity", "mean_r")
+        self.assertEqual(sum(math.isfinite(y) for _, y in blocks["panel1-curve1"]), sum(row["mean_r"] != "" for row in csv.DictReader(io.StringIO(self.rows("a.db")))))
+        heights = {}
+        for name, said, points in self.signs:
+            heights.setdefault(re.search(rf"'{name}' .* rgb '(#\w+)'", script)[1], set()).update(y for _, y in points)
+        self.assertEqual(list(heights), [colours["panel1-curve1"], next(c for c in heights if c != colours["panel1-curve1"])])
+        self.assertEqual([len(here) for here in heights.values()], [1, 1])
+        self.assertNotEqual(*heights.values())
+        for said in ("ejected", "failed: 2 points", "model.kappa 1.2: ejected", "undecided"):
+            self.assertIn(f"set label '{said}' at", script)
+        self.over("b.db", "b.db", "--quantity", "mean_r")  # no file has a value
+
+    def test_of_a_family(self):
+        self.sweep("f.db", "drive.frequency=9,10,11", "model.kappa=1,1.5")
+        change(self.path("f.db"), "UPDATE rows SET status = 'failed', regime = NULL, mean_r = NULL WHERE point IN (0, 3)")
+        self.plot("f.db", "--quantity", "mean_r")
+        self.assertIn([(9, 1)], [[(x, round(y / 0.03)) for x, y in points] for _, _, points in self.signs])
+        self.assertIn([10], [[x for x, _ in points] for _, _, points in self.signs])
+        self.assertIn("failed: 1 point", [said for _, said, _ in self.signs])
 
 
 class ManyPoints(Figures):
