@@ -225,13 +225,14 @@ FST_API void fst_placed_track_free(fst_placed_track *placed);
 /* What was fitted to the distance from the centre, at a time of a placed track. */
 FST_API double fst_fitted_radius(const fst_measurement *measured, double t);
 
-/* Lay up to FST_CHARTS_OVER tables of measured points with their errors over the curves of as many sweeps over the
- * drive (databases) or branches over the drive (JSON), a panel for each quantity.  Of the options (NULL: all zeros)
- * count the units (as given: mm and Hz), title and size.  chi^2 is the sum over all measured numbers for which there
- * is a curve at their frequency (of a branch: the nearest stable one), and `counted` says how many these are; `left_out` names the others with the
- * reason, each on a line, as many as have room; `fits`
- * (NULL: not wanted) has room for result_count * point_count, those of result m and table p at m * point_count + p.
- * FST_BAD_INPUT: scaled units, and two results differ in l or gamma. */
+/* Lay up to FST_CHARTS_OVER tables of measured points with their errors over the curves of as many sweeps over
+ * the drive (databases) or branches over the drive (JSON), a panel for each quantity.  Of the options (NULL:
+ * all zeros) count the keys (names of fst_measured; none: all that was measured), the units (as given: mm and
+ * Hz), title and size.  chi^2 is the sum over all measured numbers of these for which there is a curve at
+ * their frequency (of a branch: the nearest stable one), and `counted` says how many these are; `left_out`
+ * names the others with the reason, each on a line, as many as have room; `fits` (NULL: not wanted) has room
+ * for result_count * point_count, those of result m and table p at m * point_count + p. FST_BAD_INPUT: scaled
+ * units, and two results differ in l or gamma. */
 struct fst_sweep_figure;
 typedef struct fst_points_fit {
     double chi2;

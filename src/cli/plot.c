@@ -29,8 +29,9 @@ static const option options[] = {
     {"to", '\0', "P", "last drive period shown"},
     {"zoom", '\0', "X0,X1,Y0,Y1", "the part of the plate shown, in mm"},
     {"points", '\0', "DATA.csv",
-     "of sweeps and branches over the drive: lay measured points with errors over them, and tell chi^2; again "
-     "for more tables"},
+     "of sweeps and branches over the drive: lay measured points with errors over them, and tell chi^2, of all "
+     "or of "
+     "--quantity (mean_r, std_r, bead_frequency); again for more tables"},
     {"runs", EXPERT, "FILE", "lay runs over a branch as dots, from documents of festoon run --json"},
     {NULL, '\0', NULL, NULL},
 };
@@ -200,8 +201,9 @@ static fst_status plot_points(const arguments *given, const char *to, FILE *out,
     fst_points_fit fits[FST_CHARTS_OVER * FST_CHARTS_OVER];
     fst_sweep_figure figure = {.kind = FST_FIGURE_PATH};
     const char *tables[FST_CHARTS_OVER + 1];
+    char words[KEYS_SIZE];
     int is_sweep = 0, table_count = 0;
-    fst_status status = refuse_others(given, "points|units", "a figure with measured points", error);
+    fst_status status = refuse_others(given, "points|quantity|units", "a figure with measured points", error);
     for (int i = 0; i < given->option_count && table_count <= FST_CHARTS_OVER; ++i)
         if (strcmp(given->options[i].row->name, "points") == 0)
             tables[table_count++] = given->options[i].value;
@@ -218,6 +220,8 @@ static fst_status plot_points(const arguments *given, const char *to, FILE *out,
         status = read_units(given, &figure.units, error);
     if (status == FST_OK)
         status = read_look(given, &figure.title, figure.size, error);
+    if (status == FST_OK)
+        status = read_quantities(given, words, figure.keys, FST_SWEEP_FIGURE_KEYS, error);
     if (status == FST_OK)
         status = fst_figure_points(given->operands, given->operand_count, tables, table_count, &figure, to,
                                    fits, error);

@@ -335,6 +335,14 @@ fst_look fst_special_look(fst_special_type type)
     return (fst_look){signs[type].words, fst_colour_code(signs[type].colour)};
 }
 
+fst_chart_curve fst_special_curve(fst_special_type type)
+{
+    return (fst_chart_curve){.title = signs[type].words,
+                             .colour = signs[type].colour,
+                             .sign = signs[type].sign,
+                             .style = FST_CURVE_SIGNS};
+}
+
 /* Returns how many curves there are; -1: no memory. */
 static int add_diagram(fst_chart *chart, const fst_branch *b, const shown *s, columns *c,
                        fst_chart_curve *curves)
@@ -359,8 +367,10 @@ static int add_diagram(fst_chart *chart, const fst_branch *b, const shown *s, co
         if (special->count == 0)
             continue;
         show_in_units(special, s);
-        style_curve(&curves[count], special, signs[type].words, signs[type].colour, FST_CURVE_SIGNS);
-        curves[count++].sign = signs[type].sign;
+        curves[count] = fst_special_curve((fst_special_type)type);
+        curves[count].x = special->x;
+        curves[count].y = special->y;
+        curves[count++].count = special->count;
     }
     return count;
 }

@@ -15,4 +15,7 @@ typedef struct fst_columns {
 int fst_branch_curve(fst_chart *chart, const fst_branch *b, const char *observable, int stable,
                      fst_columns *curve);
 
+/* A curve with the title, the colour and the sign of a type of special points, and no points yet. */
+fst_chart_curve fst_special_curve(fst_special_type type);
+
 #endif

@@ -327,7 +327,7 @@ class Branches(Case):
                 ("t.csv", "--no-arrows does not belong to this kind", ["--no-arrows", "--kind", "time"]),
                 ("t.csv", "--zoom does not", ["--zoom", "0,1,0,1", "--kind", "section"]),
                 ("s.db", "--frame does not belong to a sweep; what does: --kind, --quantity, --only", ["--frame", "lab"]),
-                ("s.db", "--quantity does not belong to a figure with measured points", ["--quantity", "mean_r", "--points", "p.csv"])):
+                ("s.db", "--kind does not belong to a figure with measured points", ["--kind", "curves", "--points", "p.csv"])):
             self.refused(word, "plot", self.folder / name, *words)
 
     def test_an_observable_that_is_not_there(self):

@@ -1,7 +1,7 @@
 """What festoon measure writes: tables of points that festoon's other commands read, figures, the path of a scene laid over
 a track; measured points over sweeps and branches with chi^2; and the tracks that tools/blender-export.py makes.
 
-tests: measure/json.c measure/figure_measure.c measure/figure_points.c follow/overlay.c measure/points.c"""
+tests: measure/json.c measure/figure_measure.c measure/figure_points.c measure/point_curves.c follow/overlay.c measure/points.c"""
 
 import csv
 import importlib.util
@@ -196,6 +196,16 @@ class Points(Program):
         self.assertGreater(joined, 20)
         self.assertLess(float(chi2), 3.0)
 
+    def signs(self, *names):
+        """{panel: [places]} of the curves with these names in the figure."""
+        found = {}
+        with open(self.path("fig.dat"), encoding="utf-8") as file:
+            for block in file.read().split("\n\n\n"):
+                name, words, *lines = block.strip("\n").split("\n")
+                if words[2:] in names:
+                    found.setdefault(name[2:8], []).extend(tuple(round(float(word), 5) for word in line.split()) for line in lines)
+        return {panel: sorted(places) for panel, places in found.items()}
+
     def test_exact_orbits_over_a_branch(self):
         """Orbits that are found one by one, between the branch's points and on either side of its pitchfork at 13.37 Hz,
         lie on its curve, by either key of the drive; what has no part in chi^2 is named with the reason."""
@@ -231,6 +241,26 @@ class Points(Program):
         self.assertLess(max(b - a for a, b in zip(xs, xs[1:])), 0.3)
         there = (pitchfork["value"] * 312.5 / (2 * math.pi), 23 * pitchfork["at"]["mean_r"])
         self.assertEqual(sum(math.dist(there, point[:2]) < 1e-5 for point in drawn), 2)
+        # The special points of the branch stand in both panels, where the branch has them.
+        with open(branch, encoding="utf-8") as file:
+            specials = json.load(file)["specials"]
+        hertz = 312.5 / (2 * math.pi)
+        wanted = [sorted((round(hertz * s["value"], 5), round(scale * s["at"][key], 5)) for s in specials)
+                  for key, scale in (("mean_r", 23), ("mean_alpha_dot", hertz))]
+        self.assertEqual(self.signs("pitchfork", "Hopf", "passes the axis, r = 0"), {"panel1": wanted[0], "panel2": wanted[1]})
+        # Over several branches the key names each sign once.
+        self.festoon("plot", branch, branch, "--points", tables[0], "-o", self.path("fig.svg"))
+        self.assertEqual([len(found) for found in self.signs("pitchfork").values()], [1, 1])
+        with open(self.path("fig.gp"), encoding="utf-8") as script:
+            self.assertEqual(script.read().count("set label 'pitchfork'"), 1)
+        # --quantity chooses panels, and what chi^2 is of.
+        for key in ("bead_frequency", "mean_alpha_dot"):
+            said = self.festoon("plot", branch, "--points", tables[-1], "--quantity", key, "-o", self.path("fig.svg")).stderr
+            self.assertIn("of 7 measured numbers (7 in the table)", said)
+            self.assertEqual(self.signs("pitchfork", "Hopf", "passes the axis, r = 0"), {"panel1": wanted[1]})
+        for key, told in (("mean_q", "the nearest is mean_r"), ("std_r", "no measured number of what is asked for")):
+            self.assertIn(told, self.festoon("plot", branch, "--points", tables[0], "--quantity", key, "-o", self.path("no.svg"),
+                                             status=2).stderr)
         odd = self.write("odd.csv", "frequency [Hz],mean_r [mm],mean_r_error [mm],std_r [mm],std_r_error [mm]\n"
                                     "10.7,17.63,0.1,1,0.1\n40,20,1,,\n")
         said = self.festoon("plot", branch, "--points", odd, "-o", self.path("fig.svg")).stderr
