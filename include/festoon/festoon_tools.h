@@ -350,8 +350,8 @@ typedef struct fst_sweep_merged {
 FST_API fst_status fst_sweep_merge(const char *const *paths, int count, const char *out,
                                    const fst_progress *progress, fst_sweep_merged *merged, fst_error *error);
 
-/* The scaled unit of a key of rows; "1" for a name or a pure number. */
-FST_API const char *fst_sweep_key_unit(const char *key);
+/* The scaled unit of a key of the rows of a grid; "1" for a name or a pure number. */
+FST_API const char *fst_sweep_key_unit(const fst_grid *grid, const char *key);
 
 typedef enum { FST_EXPORTS(FST_ROW_ENUM) FST_EXPORT_COUNT } fst_export_format;
 

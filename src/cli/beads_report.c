@@ -12,10 +12,9 @@ typedef struct page {
     const char *length_unit, *rate_unit, *power_unit;
 } page;
 
-static page begin_page(FILE *out, const fst_params *scene, int si)
+static page begin_page(FILE *out, const fst_params *scene, fst_shown_units units)
 {
     const fst_scales scales = fst_scales_of(scene);
-    const fst_shown_units units = si ? FST_SHOWN_SI : FST_SHOWN_LAB;
     page p = {.out = out};
     p.length = fst_unit_shown("l", units, &scales, &p.length_unit);
     p.rate = fst_number_shown("mean_alpha_dot", "gamma", units, &scales, &p.rate_unit);
@@ -96,9 +95,9 @@ static void print_balance(const page *p, const fst_beads_result *result)
         (void)fprintf(p->out, "  the contact forces are one choice of many: more contacts than directions\n");
 }
 
-void print_beads(FILE *out, const fst_params *scene, const fst_beads_result *result, int si)
+void print_beads(FILE *out, const fst_params *scene, const fst_beads_result *result, fst_shown_units units)
 {
-    const page p = begin_page(out, scene, si);
+    const page p = begin_page(out, scene, units == FST_SHOWN_AS_GIVEN ? FST_SHOWN_LAB : units);
     char sentence[FST_BEADS_SENTENCE_SIZE];
     fst_beads_sentence(result, sentence, sizeof sentence);
     (void)fprintf(out, "%s\n  %s: %s\n", sentence, fst_beads_outcome_name(result->outcome), result->reason);

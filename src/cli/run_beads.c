@@ -37,7 +37,7 @@ fst_status run_beads(const arguments *given, const fst_params *scene, FILE *out,
     if (status == FST_OK && option_value(given, "json"))
         status = print_and_free(fst_beads_json(scene, &result, units), out, error);
     else if (status == FST_OK)
-        print_beads(out, scene, &result, units == FST_SHOWN_SI);
+        print_beads(out, scene, &result, units);
     fst_beads_free(&result);
     return status;
 }

@@ -1,7 +1,8 @@
 /* run_world.c - festoon run of a bead in three dimensions: in a bowl, in a medium, without a plate. */
 #include "cli/run_world.h"
 
-#include "cli/groups.h"
+#include <festoon/festoon_tools.h>
+
 #include "cli/run_files.h"
 #include "cli/terminal.h"
 
@@ -19,51 +20,61 @@ static fst_status check_options(const arguments *given, const char *key, fst_err
     return FST_OK;
 }
 
-static void print_vector(FILE *out, const char *name, const double v[3], double factor, const char *unit)
+/* Where the numbers go, and their units. */
+typedef struct page {
+    FILE *out;
+    fst_shown_units units;
+    fst_scales scales;
+} page;
+
+/* Three numbers in SI, which are called `key` in tables; `unit` is their scaled one. */
+static void print_vector(const page *p, const char *name, const double v[3], const char *key, const char *unit)
 {
-    (void)fprintf(out, "  %-32s %12.6g %12.6g %12.6g  %s\n", name, factor * v[0], factor * v[1], factor * v[2],
-                  unit);
+    const char *shown;
+    double factor = 1.0 / fst_number_shown(key, unit, FST_SHOWN_SI, &p->scales, &shown);
+    factor *= fst_number_shown(key, unit, p->units, &p->scales, &shown);
+    (void)fprintf(p->out, "  %-32s %12.6g %12.6g %12.6g  %s\n", name, factor * v[0], factor * v[1],
+                  factor * v[2], shown);
 }
 
-static void print_line(FILE *out, const char *name, double value, const char *unit)
+/* A scaled number; the units of a pure one are words. */
+static void print_line(const page *p, const char *name, double value, const char *key, const char *unit)
 {
+    const char *shown;
+    const double factor = fst_number_shown(key, unit, p->units, &p->scales, &shown);
     if (isfinite(value))
-        (void)fprintf(out, "  %-32s %12.6g  %s\n", name, value, unit);
+        (void)fprintf(p->out, "  %-32s %12.6g  %s\n", name, factor * value, shown);
 }
 
-static fst_status print_world(const fst_params *params, const fst_world_result *result, FILE *out,
-                              fst_error *error)
+static void print_world(const fst_params *params, const fst_world_result *result, fst_shown_units units,
+                        FILE *out)
 {
-    fst_model *model;
+    const page shown = {out, units == FST_SHOWN_AS_GIVEN ? FST_SHOWN_LAB : units, fst_scales_of(params)},
+               *p = &shown;
     const fst_run_result *run = &result->run;
-    const fst_status status = fst_field_model_new(params, NAN, &model, error);
-    if (status != FST_OK)
-        return status;
-    const fst_groups g = fst_model_groups(model);
-    fst_model_free(model);
-    const double *end = result->final_lab_si, mm = 1e3 * g.length_unit;
-    const double watts = g.mass * g.length_unit * g.length_unit / (g.time_unit * g.time_unit * g.time_unit);
+    const double *end = result->final_lab_si;
+    const char *second;
+    const double time = fst_unit_shown("1/gamma", p->units, &p->scales, &second);
     (void)fprintf(out, "%s: %s\n\n", fst_regime_name(run->regime), run->reason);
     (void)fprintf(out,
-                  "  %.6g periods of the drive (%.6g s), in the frame of the %s, means over the last %.6g\n",
-                  run->periods, result->final_time * g.time_unit,
+                  "  %.6g periods of the drive (%.6g %s), in the frame of the %s, means over the last %.6g\n",
+                  run->periods, result->final_time * time, second,
                   result->frame == FST_FRAME_LABORATORY ? "laboratory" : "turning magnet", run->window_periods);
-    print_line(out, "mean distance from the axis", run->mean_r * mm, "mm");
-    print_line(out, "mean height", result->mean_height * mm, "mm");
-    print_line(out, "bead's circling <alpha'>", run->mean_alpha_dot / (TWO_PI * g.time_unit), "Hz");
-    print_line(out, "mean velocity along the wave", result->mean_velocity * mm / g.time_unit, "mm/s");
-    print_line(out, "limit of its error", result->mean_velocity_error * mm / g.time_unit, "mm/s");
-    print_line(out, "load on the plate", run->mean_load_weights, "weights");
-    print_line(out, "power of the drive", run->mean_drive_power * watts, "W");
-    print_line(out, "power lost to friction", run->mean_friction_power * watts, "W");
-    print_line(out, "power lost to the medium", result->mean_medium_power * watts, "W");
-    print_line(out, "energy residual", run->energy_residual, "");
+    print_line(p, "mean distance from the axis", run->mean_r, "mean_r", "l");
+    print_line(p, "mean height", result->mean_height, "mean_height", "l");
+    print_line(p, "bead's circling <alpha'>", run->mean_alpha_dot, "mean_alpha_dot", "gamma");
+    print_line(p, "mean velocity along the wave", result->mean_velocity, "mean_velocity", "l gamma");
+    print_line(p, "limit of its error", result->mean_velocity_error, "mean_velocity_error", "l gamma");
+    print_line(p, "load on the plate", run->mean_load_weights, "mean_load_weights", "weights");
+    print_line(p, "power of the drive", run->mean_drive_power, "mean_drive_power", "l^2 gamma^3");
+    print_line(p, "power lost to friction", run->mean_friction_power, "mean_friction_power", "l^2 gamma^3");
+    print_line(p, "power lost to the medium", result->mean_medium_power, "mean_medium_power", "l^2 gamma^3");
+    print_line(p, "energy residual", run->energy_residual, "energy_residual", "");
     (void)fprintf(out, "At the end, on the laboratory's axes:\n");
-    print_vector(out, "place", end, 1e3, "mm");
-    print_vector(out, "velocity", end + 3, 1e3, "mm/s");
-    print_vector(out, "direction of the moment", end + 6, 1.0, "");
-    print_vector(out, "angular velocity", end + 9, 1.0, "1/s");
-    return FST_OK;
+    print_vector(p, "place", end, "X", "l");
+    print_vector(p, "velocity", end + 3, "vX", "l gamma");
+    print_vector(p, "direction of the moment", end + 6, "nX", "");
+    print_vector(p, "angular velocity", end + 9, "WX", "gamma");
 }
 
 fst_status run_world(const arguments *given, const fst_params *params, FILE *out, fst_error *error)
@@ -90,5 +101,6 @@ fst_status run_world(const arguments *given, const fst_params *params, FILE *out
         return status;
     if (option_value(given, "json"))
         return print_and_free(fst_world_json(params, &result, units), out, error);
-    return print_world(params, &result, out, error);
+    print_world(params, &result, units, out);
+    return FST_OK;
 }

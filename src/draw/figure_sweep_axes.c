@@ -269,7 +269,7 @@ fst_status fst_sweep_quantity_of(const fst_grid *grid, const char *key, fst_show
                                  fst_sweep_quantity *quantity, fst_error *error)
 {
     const fst_scales scales = scales_of(grid), base = fst_scales_of(fst_grid_base(grid));
-    const char *unit = fst_sweep_key_unit(key), *name, *base_name;
+    const char *unit = fst_sweep_key_unit(grid, key), *name, *base_name;
     (void)fst_unit_shown(unit, units, &scales, &name);
     (void)fst_unit_shown(unit, units, &base, &base_name);
     const int field_only = strcmp(unit, "B0") == 0; /* it then stays in B0 */

@@ -20,15 +20,11 @@ typedef struct page {
 } page;
 
 /* A number, and with its unit at the end of its key in SI. */
-static void put(page *p, const char *key, double value, const char *unit, const char *ending)
+static void put(page *p, const char *key, double value, const char *unit)
 {
-    const char *unused;
-    char in_si[64];
     fst_json_real(&p->json, key, value);
-    if (!p->in_si)
-        return;
-    (void)snprintf(in_si, sizeof in_si, "%s%s", key, ending);
-    fst_json_real(&p->json, in_si, value * fst_unit_shown(unit, FST_SHOWN_SI, &p->scales, &unused));
+    if (p->in_si)
+        fst_json_in_si(&p->json, key, value, unit, &p->scales);
 }
 
 static void put_beads(page *p, const fst_beads_result *result)
@@ -38,10 +34,10 @@ static void put_beads(page *p, const fst_beads_result *result)
         const fst_bead_result *bead = &result->beads[i];
         fst_json_open(&p->json, NULL, '{');
         fst_json_text(&p->json, "regime", fst_regime_name(bead->regime));
-        put(p, "mean_r", bead->mean_r, "l", "_m");
-        put(p, "mean_alpha_dot", bead->mean_alpha_dot, "gamma", "_per_s");
+        put(p, "mean_r", bead->mean_r, "l");
+        put(p, "mean_alpha_dot", bead->mean_alpha_dot, "gamma");
         fst_json_real(&p->json, "mean_load_weights", bead->mean_load_weights);
-        put(p, "ejected_at", bead->ejected_at, "1/gamma", "_s");
+        put(p, "ejected_at", bead->ejected_at, "1/gamma");
         fst_json_reals(&p->json, "final_state", bead->final_state, FST_BEAD_NUMBERS);
         fst_json_close(&p->json);
     }
@@ -59,9 +55,9 @@ static void put_groups(page *p, const fst_beads_result *result)
         for (int k = 0; k < group->count; ++k)
             fst_json_integer(&p->json, NULL, group->members[k]);
         fst_json_close(&p->json);
-        put(p, "mean_r", group->mean_r, "l", "_m");
-        put(p, "centre_rate", group->centre_rate, "gamma", "_per_s");
-        put(p, "axis_rate", group->axis_rate, "gamma", "_per_s");
+        put(p, "mean_r", group->mean_r, "l");
+        put(p, "centre_rate", group->centre_rate, "gamma");
+        put(p, "axis_rate", group->axis_rate, "gamma");
         fst_json_close(&p->json);
     }
     fst_json_close(&p->json);
@@ -80,7 +76,7 @@ static void put_contacts(page *p, const fst_beads_result *result)
     for (int k = 0; k < result->touch_count; ++k) {
         fst_json_open(&p->json, NULL, '{');
         put_two(p, result->touches[k].beads);
-        put(p, "force", result->touches[k].force, "l gamma^2", "_newtons");
+        put(p, "force", result->touches[k].force, "l gamma^2");
         fst_json_close(&p->json);
     }
     fst_json_close(&p->json);
@@ -90,10 +86,10 @@ static void put_contacts(page *p, const fst_beads_result *result)
 static void put_powers(page *p, const fst_beads_result *result)
 {
     fst_json_open(&p->json, "powers", '{');
-    put(p, "drive", result->drive_power, "l^2 gamma^3", "_watts");
-    put(p, "plate", result->plate_power, "l^2 gamma^3", "_watts");
-    put(p, "pair", result->pair_power, "l^2 gamma^3", "_watts");
-    put(p, "impacts", result->impact_power, "l^2 gamma^3", "_watts");
+    put(p, "drive", result->drive_power, "l^2 gamma^3");
+    put(p, "plate", result->plate_power, "l^2 gamma^3");
+    put(p, "pair", result->pair_power, "l^2 gamma^3");
+    put(p, "impacts", result->impact_power, "l^2 gamma^3");
     fst_json_close(&p->json);
 }
 
@@ -104,14 +100,14 @@ static void put_events(page *p, const fst_beads_result *result)
     for (int k = 0; k < result->event_count && p->with_events; ++k) {
         const fst_bead_event *event = &result->events[k];
         fst_json_open(&p->json, NULL, '{');
-        put(p, "time", event->time, "1/gamma", "_s");
+        put(p, "time", event->time, "1/gamma");
         fst_json_text(&p->json, "kind", fst_bead_event_name(event->kind));
         fst_json_open(&p->json, "beads", '[');
         fst_json_integer(&p->json, NULL, event->beads[0]);
         if (event->beads[1] >= 0)
             fst_json_integer(&p->json, NULL, event->beads[1]);
         fst_json_close(&p->json);
-        put(p, "speed", event->speed, "l gamma", "_m_per_s");
+        put(p, "speed", event->speed, "l gamma");
         fst_json_close(&p->json);
     }
     if (p->with_events)
@@ -129,7 +125,7 @@ static void put_paradox(page *p, const fst_beads_paradox *paradox)
         return;
     }
     fst_json_open(&p->json, "paradox", '{');
-    put(p, "time", paradox->time, "1/gamma", "_s");
+    put(p, "time", paradox->time, "1/gamma");
     fst_json_integer(&p->json, "motions", paradox->motions);
     fst_json_open(&p->json, "contacts", '[');
     for (int k = 0; k < paradox->touch_count; ++k) {

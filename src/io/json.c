@@ -206,13 +206,27 @@ static const struct {
     {"1/gamma", "_s"}, {"l gamma^2", "_newtons"}, {"l^2 gamma^2", "_joules"}, {"l^2 gamma^3", "_watts"},
 };
 
+void fst_json_in_si(fst_json *json, const char *name, double value, const char *unit, const fst_scales *scales)
+{
+    char key[64];
+    const char *unused;
+    for (size_t k = 0; k < sizeof si_endings / sizeof *si_endings; ++k) {
+        if (strcmp(unit, si_endings[k].unit) != 0)
+            continue;
+        const int unknown = strcmp(unit, "B0") == 0 && isnan(scales->field);
+        const double factor = fst_unit_shown(unit, FST_SHOWN_SI, scales, &unused);
+        (void)snprintf(key, sizeof key, "%s%s", name, si_endings[k].ending);
+        fst_json_real(json, key, unknown ? NAN : value * factor);
+    }
+}
+
 /* The numbers of a run in SI; a load in weights, mean_load_weights, becomes mean_load_newtons. */
 static void put_si(fst_json *json, const fst_params *params, const fst_run_result *result)
 {
     const fst_scales scales = fst_scales_of(params);
     for (int i = 0; i < fst_result_count(); ++i) {
         const fst_result_info *info = fst_result_at(i);
-        const char *in_weights = strstr(info->name, "_weights"), *unused;
+        const char *in_weights = strstr(info->name, "_weights");
         char key[64];
         double value;
         memcpy(&value, (const char *)result + info->offset, sizeof value);
@@ -220,14 +234,7 @@ static void put_si(fst_json *json, const fst_params *params, const fst_run_resul
             (void)snprintf(key, sizeof key, "%.*s_newtons", (int)(in_weights - info->name), info->name);
             fst_json_real(json, key, value * scales.mass * params->plate_gravity);
         }
-        for (size_t k = 0; k < sizeof si_endings / sizeof *si_endings; ++k) {
-            if (strcmp(info->unit, si_endings[k].unit) != 0)
-                continue;
-            const int unknown = strcmp(info->unit, "B0") == 0 && isnan(scales.field);
-            const double factor = fst_unit_shown(info->unit, FST_SHOWN_SI, &scales, &unused);
-            (void)snprintf(key, sizeof key, "%s%s", info->name, si_endings[k].ending);
-            fst_json_real(json, key, unknown ? NAN : value * factor);
-        }
+        fst_json_in_si(json, info->name, value, info->unit, &scales);
     }
 }
 
@@ -242,6 +249,16 @@ static void put_world(fst_json *json, const fst_world_result *result)
     fst_json_real(json, "mean_medium_power", result->mean_medium_power);
     fst_json_real(json, "mean_velocity", result->mean_velocity);
     fst_json_real(json, "mean_velocity_error", result->mean_velocity_error);
+}
+
+static void put_world_si(fst_json *json, const fst_params *params, const fst_world_result *result)
+{
+    const fst_scales scales = fst_scales_of(params);
+    fst_json_in_si(json, "final_time", result->final_time, "1/gamma", &scales);
+    fst_json_in_si(json, "mean_height", result->mean_height, "l", &scales);
+    fst_json_in_si(json, "mean_medium_power", result->mean_medium_power, "l^2 gamma^3", &scales);
+    fst_json_in_si(json, "mean_velocity", result->mean_velocity, "l gamma", &scales);
+    fst_json_in_si(json, "mean_velocity_error", result->mean_velocity_error, "l gamma", &scales);
 }
 
 char *fst_world_line(const fst_params *params, const fst_world_result *result)
@@ -259,6 +276,8 @@ char *fst_world_json(const fst_params *params, const fst_world_result *result, f
     if (units == FST_SHOWN_LAB || units == FST_SHOWN_SI)
         put_si(&json, params, &result->run);
     put_world(&json, result);
+    if (units == FST_SHOWN_LAB || units == FST_SHOWN_SI)
+        put_world_si(&json, params, result);
     put_groups(&json, params);
     fst_json_scene(&json, params);
     fst_json_text(&json, "version", fst_version());

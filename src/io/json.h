@@ -15,6 +15,10 @@ json_t *fst_json_read(const char *text, size_t size, json_error_t *why, fst_stat
  * quantity was. */
 void fst_json_scene(fst_json *json, const fst_params *params);
 
+/* A number in SI, whose scaled unit is given, under its name with the SI unit behind it: mean_r_m.  A unit without
+ * counterpart: nothing. */
+void fst_json_in_si(fst_json *json, const char *name, double value, const char *unit, const fst_scales *scales);
+
 /* The members of a run's result. */
 void fst_json_run(fst_json *json, const fst_params *params, const fst_run_result *result);
 

@@ -2,6 +2,7 @@
 #include <festoon/festoon_tools.h>
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/constants.h"
@@ -76,8 +77,15 @@ static int is_rotation(const char *name)
                                             "w_y",
                                             "w_z",
                                             "spin"};
+    char plain[64]; /* of a column of one bead of several, WX_0, or of a sweep's last state, final_WX */
+    (void)snprintf(plain, sizeof plain, "%s", strncmp(name, "final_", 6) == 0 ? name + 6 : name);
+    size_t end = strlen(plain);
+    while (end > 0 && plain[end - 1] >= '0' && plain[end - 1] <= '9')
+        --end;
+    if (end > 0 && plain[end] && plain[end - 1] == '_')
+        plain[end - 1] = '\0';
     for (size_t i = 0; i < sizeof rotations / sizeof rotations[0]; ++i)
-        if (strcmp(name, rotations[i]) == 0)
+        if (strcmp(plain, rotations[i]) == 0)
             return 1;
     return 0;
 }

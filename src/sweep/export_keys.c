@@ -39,13 +39,16 @@ static const char *parameter_unit(const fst_param_info *info, fst_shown_units un
     return units == FST_SHOWN_LAB ? fst_unit_customary(info->unit, shift) : fst_unit_name(info->unit);
 }
 
-const char *fst_sweep_key_unit(const char *key)
+const char *fst_sweep_key_unit(const fst_grid *grid, const char *key)
 {
-    for (int i = 0; i < fst_result_count(); ++i)
+    const fst_row_kind kind = fst_grid_row_kind(grid);
+    for (int i = 0; i < fst_result_count() && kind == FST_ROWS_OF_RUNS; ++i)
         if (strcmp(fst_result_at(i)->name, key) == 0)
             return fst_result_at(i)->unit;
-    const fst_bead_column *of_beads = fst_bead_column_find(key);
-    return of_beads ? of_beads->unit : "1";
+    for (int i = 0; i < fst_bead_column_count(kind); ++i)
+        if (strcmp(fst_bead_column_at(kind, i)->name, key) == 0)
+            return fst_bead_column_at(kind, i)->unit;
+    return "1";
 }
 
 static void write_name(FILE *out, const char *name, const char *unit)
@@ -69,7 +72,7 @@ static void write_head(const table_writer *w, const fst_scales *scales)
         (void)fputc(',', w->stream);
     }
     for (int i = 0; i < w->count; ++i) {
-        (void)fst_number_shown(w->keys[i], fst_sweep_key_unit(w->keys[i]), w->units, scales, &unit);
+        (void)fst_number_shown(w->keys[i], fst_sweep_key_unit(grid, w->keys[i]), w->units, scales, &unit);
         write_name(w->stream, w->keys[i], unit);
         (void)fputc(',', w->stream);
     }
@@ -107,8 +110,9 @@ static void write_result(const table_writer *w, const char *key, double value, c
     } else if (isfinite(value) && strcmp(key, "symmetry") == 0)
         (void)snprintf(text, sizeof text, "%s", fst_symmetry_name((fst_symmetry)value));
     else if (isfinite(value))
-        (void)fst_number_write(text, sizeof text,
-                               value * fst_number_shown(key, fst_sweep_key_unit(key), w->units, scales, &unit));
+        (void)fst_number_write(
+            text, sizeof text,
+            value * fst_number_shown(key, fst_sweep_key_unit(w->file.grid, key), w->units, scales, &unit));
     (void)fputs(text, w->stream);
 }
 

@@ -1,13 +1,15 @@
 """The numbers that `festoon run` prints for people are those of --json, in the units beside them.
 
-tests: cli/run_report.c cli/groups.c io/shown.c
+tests: cli/run_report.c cli/run_world.c cli/beads_report.c cli/groups.c io/shown.c io/beads_file.c sweep/export_keys.c
 labels: numbers"""
 
 import json
 import math
 import os
+import pathlib
 import re
 import subprocess
+import tempfile
 
 FESTOON = os.environ["FESTOON"]
 REAL = {"bead.moment": "0.06", "magnet.b0": "2.5 mT", "run.periods": "40"}
@@ -89,6 +91,90 @@ def test_the_time_in_which_chaos_parts_beads():
     found = re.search(r"part e-fold in (\S+) s", run(*more))
     expected = 1.0 / (result["largest_exponent"] * result["scene"]["friction.gamma"])
     assert math.isclose(float(found.group(1)), expected, rel_tol=1e-2), (found.group(1), expected)
+
+
+SOURCE = pathlib.Path(os.environ["SOURCE_DIR"])
+SCENES = sorted(SOURCE.glob("examples/worlds/*.yaml")) + sorted(SOURCE.glob("examples/beads/*.yaml"))
+#: What a unit of the laboratory is in SI, and what a scaled one is, of the length, the rate and the mass of a scene.
+LAB = {"1": 1, "turn": 1, "mm": 1e-3, "s": 1, "mm/s": 1e-3, "Hz": 2 * math.pi, "mN": 1e-3, "mW": 1e-3, "weights": 1, "": 1}
+SI = {**{unit: 1 for unit in ("1", "turn", "m", "s", "m/s", "rad/s", "N", "W", "weights", "")}}
+
+
+def scaled_units(scene):
+    bead = {**scene, **(scene["beads"][0] if scene.get("beads") else {})}
+    length, rate, mass = scene["magnet.half_length"], scene["friction.gamma"], bead["bead.mass"]
+    if mass is None:
+        mass = bead["bead.density"] * 4 / 3 * math.pi * bead["bead.radius"] ** 3
+    return {"1": 1, "turn": 1, "weights": 1, "": 1, "l": length, "1/gamma": 1 / rate, "gamma": rate, "l gamma": length * rate,
+            "l gamma^2": mass * length * rate**2, "l^2 gamma^2": mass * length**2 * rate**2,
+            "l^2 gamma^3": mass * length**2 * rate**3}
+
+
+def same_in_si(numbers, units):
+    """Numbers of three systems of units, [(value, unit)] each, are the same in SI, and no system is the other."""
+    lab, si, scaled = ([value * known[unit] for value, unit in given] for given, known in zip(numbers, units, strict=True))
+    assert len(lab) == len(si) == len(scaled) > 0
+    for values in zip(lab, si, scaled):
+        assert all(map(math.isnan, values)) or max(values) - min(values) <= 2e-5 * max(map(abs, values)), values
+
+
+def test_worlds_and_several_beads_in_all_units():
+    """Every column of their tables and every number of their reports: a value times its unit is the same, whether it is
+    one of the laboratory, of SI or a scaled one."""
+    with tempfile.TemporaryDirectory() as folder:
+        table, rows = os.path.join(folder, "t.csv"), "(?m)^(?!#)(.+)$"
+        for scene in SCENES:
+            texts, cells, fields, reports = [], [], [], []
+            for words in ("lab", "si", "scaled"):
+                run_it = [FESTOON, "run", scene, "--set", "run.periods=2", "--set", "run.discard=1", "--units", words]
+                texts.append(subprocess.run([*run_it, "--csv", table], capture_output=True, text=True, check=True).stdout)
+                head, *lines = re.findall(rows, pathlib.Path(table).read_text())
+                fields.append(re.findall(r"(\w+) \[(.*?)\]", head))
+                cells.append([float(cell) for cell in lines[len(lines) // 2].split(",")])
+                # A line of a report ends in numbers and their unit; tables have their units above the numbers.
+                found = re.findall(r"^  (?:[a-z<'].*?)  +((?:-?[\d.e+-]+ +)*-?[\d.e+-]+)  ?([a-zA-Z/^ 0-9]*)$", texts[-1], re.M)
+                reports.append([(float(number.split()[-1]), unit.strip()) for number, unit in found])
+            told = json.loads(subprocess.run([*run_it, "--json"], capture_output=True, text=True, check=True).stdout)["scene"]
+            units = (LAB, SI, scaled_units(told))
+            assert [name for name, _ in fields[0]] == [name for name, _ in fields[1]] == [name for name, _ in fields[2]]
+            same_in_si([[(value, unit) for value, (_, unit) in zip(row, units_of, strict=True)]
+                        for row, units_of in zip(cells, fields)], units)
+            for name in ("WX_0", "WZ_0"):
+                assert [dict(found)[name] for found in fields] == ["Hz", "rad/s", "gamma"], name
+            for one, other in ((0, 1), (0, 2), (1, 2)):
+                assert texts[one] != texts[other], (scene, "the report has the same units")
+            same_in_si(reports, units)
+
+
+def exported(base, keys, units):
+    """[(value, unit)] of the first row of a sweep, a few keys at a time."""
+    found = []
+    for first in range(0, len(keys), 8):
+        some = keys[first:first + 8]
+        head, row, *_ = subprocess.run([FESTOON, "export", base, "--csv", "--quantity", ",".join(some), "--units", units],
+                                       capture_output=True, text=True, check=True).stdout.splitlines()
+        fields = [re.fullmatch(r"(\S+?)(?: \[(.*)\])?", field).groups() for field in head.split(",")[1:-1]]
+        assert [key for key, _ in fields] == some
+        found += [(float(cell or "nan"), unit or "1") for cell, (_, unit) in zip(row.split(",")[1:], fields)]
+    return found
+
+
+def test_rows_of_sweeps_in_all_units():
+    """The same of every key of a sweep's rows: of beads, of a world, and of places where a bead floats."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, scene, more in (("beads", "beads/bar", ()), ("world", "worlds/bowl", ()), ("floats", "worlds/levitation", ("--levitation",))):
+            base = os.path.join(folder, name + ".db")
+            subprocess.run([FESTOON, "sweep", SOURCE / f"examples/{scene}.yaml", *more, "--set", "run.periods=2", "--set", "run.discard=1",
+                            "--over", "drive.frequency=29,30", "-o", base], capture_output=True, check=True)
+            rows = json.loads(subprocess.run([FESTOON, "export", base, "--json"], capture_output=True, text=True, check=True).stdout)
+            keys = [key for key, value in rows[0].items() if isinstance(value, (int, float)) and key not in ("point", "drive.frequency")]
+            numbers = [exported(base, keys, units) for units in ("lab", "si", "scaled")]
+            told = json.loads(subprocess.run([FESTOON, "run", SOURCE / f"examples/{scene}.yaml", "--set", "run.periods=1", "--set",
+                                              "run.discard=0", "--json"], capture_output=True, text=True, check=True).stdout)["scene"]
+            same_in_si(numbers, (LAB | {"uJ": 1e-6}, SI | {"J": 1}, scaled_units(told)))
+            if name != "floats":
+                assert any(unit == "mW" for _, unit in numbers[0])
+            assert name != "beads" or (dict(zip(keys, numbers[0]))["energy_residual"][1] == "uJ")
 
 
 for name, test in list(globals().items()):
