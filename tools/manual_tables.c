@@ -1,11 +1,13 @@
 /* manual_tables.c - completes the manual page while festoon is built.
  *
  * Copies the template from standard input to standard output.  The lines @COMMANDS@, @OPTIONS@, @EXPERT OPTIONS@,
- * @PARAMETERS@, @EXPERT PARAMETERS@ and @RESULTS@ give way to the program's tables of commands and options and to those
- * of params.def and run.def, @VERSION@ within a line to the version, so that the page cannot disagree with the program.
+ * @PARAMETERS@, @LISTS@, @EXPERT PARAMETERS@, @RESULTS@, @BEADS@, @WORLDS@ and @PLACES@ give way to the program's tables of
+ * commands and options and to those of params.def, run.def and keys.def, @VERSION@ within a line to the version, so that the page cannot disagree with the program.
  * An option that several commands take stands once, with what it means in each.
  */
 #include "cli/command.h"
+
+#include <festoon/bead_files.h>
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -161,16 +163,135 @@ static void put_parameters(int expert)
     }
 }
 
+/* Behind the tables of params.def stand vectors and the parts, coils and beads of lists, each number by itself. */
+enum { VECTOR, PART, COIL, BEAD, ANOTHER /* part, coil or bead than the first */ };
+
+static int kind_of(int index)
+{
+    const int part = fst_param_part(index), coil = fst_param_coil(index), bead = fst_param_bead(index);
+    return part > 0 || coil > 0 || bead > 0 ? ANOTHER
+           : part == 0                      ? PART
+           : coil == 0                      ? COIL
+           : bead == 0                      ? BEAD
+                                            : VECTOR;
+}
+
+/* How many numbers from this one on are of one vector: start.n[0] to start.n[2]. */
+static int components_from(int index)
+{
+    const char *key = fst_param_at(index)->key;
+    const size_t length = strlen(key) - 2;
+    int count = 1;
+    if (key[length + 1] != ']')
+        return 1;
+    while (fst_param_at(index + count) && kind_of(index + count) == kind_of(index) &&
+           strncmp(fst_param_at(index + count)->key, key, length) == 0)
+        count++;
+    return count;
+}
+
+/* The key of a number or a vector, of an element of a list with N in the place of its number; returns how long it is. */
+static void put_key(int index, int count)
+{
+    const char *key = fst_param_at(index)->key, *number = kind_of(index) == VECTOR ? NULL : strchr(key, '[');
+    const int length = (int)strlen(key) - (count > 1 ? 3 : 0);
+    if (number)
+        printf("%.*s[N]%.*s", (int)(number - key), key, length - (int)(number + 3 - key), number + 3);
+    else
+        printf("%.*s", length, key);
+}
+
+/* Where the docs of two components differ, if it is in one letter alone, x in the first; NULL: they differ otherwise. */
+static const char *one_letter(const char *doc, const char *next)
+{
+    const char *at = doc;
+    while (*at && *at == next[at - doc])
+        at++;
+    return !*at || (*at == 'x' && strcmp(at + 1, next + (at - doc) + 1) == 0) ? at : NULL;
+}
+
+/* The docs of the components of a vector; once where they are the same but for the axis. */
+static void put_docs(int index, int count)
+{
+    for (int k = 0, same; k < count; k += same) {
+        const char *doc = fst_param_at(index + k)->doc, *axis = NULL;
+        for (same = 1; k + same < count && one_letter(doc, fst_param_at(index + k + same)->doc); same++)
+            axis = *one_letter(doc, fst_param_at(index + k + same)->doc)
+                       ? one_letter(doc, fst_param_at(index + k + same)->doc)
+                       : axis;
+        fputs(k > 0 ? " " : "", stdout);
+        char text[512];
+        snprintf(text, sizeof text, "%.*s%s%s", axis ? (int)(axis - doc) : 0, doc, axis ? "x, y, z" : "",
+                 axis ? axis + 1 : doc);
+        put_text(text);
+    }
+    putchar('\n');
+}
+
+static void put_list(int kind)
+{
+    for (int i = fst_param_count(), count; fst_param_at(i); i += count) {
+        count = components_from(i);
+        if (kind_of(i) != kind)
+            continue;
+        fputs(".HP 4\n.B ", stdout);
+        put_key(i, count);
+        fputs(count > 1 ? "\\fR (" : "\\fR", stdout);
+        printf(count > 1 ? "%d numbers)\n" : "\n", count);
+        put_docs(i, count);
+    }
+}
+
+/* What a bead of a list may say has the docs of what a scene says. */
+static void put_list_of_beads(void)
+{
+    fputs(".HP 4\n.B beads[N]\\fR\n", stdout);
+    fputs("A bead of a list, in which the keys above say what it does not: ", stdout);
+    for (int i = fst_param_count(), count, told = 0; fst_param_at(i); i += count) {
+        count = components_from(i);
+        if (kind_of(i) == BEAD) {
+            fputs(told++ ? ", " : "", stdout);
+            const char *name = strchr(fst_param_at(i)->key, ']') + 2;
+            printf("%.*s", (int)strlen(name) - (count > 1 ? 3 : 0), name);
+        }
+    }
+    fputs(".\n", stdout);
+}
+
+static void put_result(const char *paragraph, const char *name, const char *unit, const char *doc)
+{
+    printf("%s\n.B %s\\fR", paragraph, name);
+    if (*unit) {
+        fputs(" [", stdout);
+        put_text(unit);
+        putchar(']');
+    }
+    putchar('\n');
+    put_text(doc);
+    putchar('\n');
+}
+
 static void put_results(void)
 {
-    for (int i = 0; i < fst_result_count(); i++) {
-        const fst_result_info *row = fst_result_at(i);
-        printf(".TP 28\n.B %s\\fR [", row->name);
-        put_text(row->unit);
-        fputs("]\n", stdout);
-        put_text(row->doc);
-        putchar('\n');
-    }
+    for (int i = 0; i < fst_result_count(); i++)
+        put_result(".TP 28", fst_result_at(i)->name, fst_result_at(i)->unit, fst_result_at(i)->doc);
+}
+
+static const struct {
+    char document;
+    const char *name, *unit, *doc;
+} keys[] = {
+#define FST_BEADS_KEY(name, unit, doc) {'b', name, unit, doc},
+#define FST_WORLD_KEY(name, unit, doc) {'w', name, unit, doc},
+#define FST_PLACE_KEY(name, unit, doc) {'p', name, unit, doc},
+#include "io/keys.def"
+};
+
+static void put_keys(char document)
+{
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+        if (keys[i].document == document)
+            put_result(".HP 4", keys[i].name, keys[i].unit, keys[i].doc);
 }
 
 int main(void)
@@ -186,6 +307,17 @@ int main(void)
             put_options(1);
         } else if (strcmp(line, "@PARAMETERS@\n") == 0) {
             put_parameters(0);
+        } else if (strcmp(line, "@LISTS@\n") == 0) {
+            put_list(VECTOR);
+            put_list(PART);
+            put_list(COIL);
+            put_list_of_beads();
+        } else if (strcmp(line, "@BEADS@\n") == 0) {
+            put_keys('b');
+        } else if (strcmp(line, "@WORLDS@\n") == 0) {
+            put_keys('w');
+        } else if (strcmp(line, "@PLACES@\n") == 0) {
+            put_keys('p');
         } else if (strcmp(line, "@EXPERT PARAMETERS@\n") == 0) {
             put_parameters(1);
         } else if (strcmp(line, "@RESULTS@\n") == 0) {
