@@ -211,6 +211,10 @@ typedef struct fst_params {
 /* How far a place in the magnet's frame is from a part, m; 0 inside it and on its surface. */
 FST_API double fst_part_distance(const fst_magnet_part *part, const double place[3]);
 
+/* Whether two parts have a volume in common, as no two bodies have; parts that touch, also as inexactly as a thousandth of
+ * the thinner one's thickness, and dipoles have none. */
+FST_API int fst_parts_overlap(const fst_magnet_part *one, const fst_magnet_part *other);
+
 /* The first part that a ball of this radius about the place touches; -1 if none.  With radius 0: the part in or
  * on which the place lies, where the magnet's field is not computed. */
 FST_API int fst_part_touched(const fst_params *params, const double place[3], double radius);

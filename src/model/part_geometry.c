@@ -123,13 +123,21 @@ static double beyond(double coordinate, double half)
     return fmax(fabs(coordinate) - half, 0.0);
 }
 
+/* A place on the part's own axes, from its centre. */
+static void inwards(const fst_magnet_part *part, double axes[3][3], const double place[3], double own[3])
+{
+    for (int a = 0; a < 3; ++a) {
+        own[a] = 0.0;
+        for (int i = 0; i < 3; ++i)
+            own[a] += axes[a][i] * (place[i] - part->centre[i]);
+    }
+}
+
 double fst_part_distance(const fst_magnet_part *part, const double place[3])
 {
-    double axes[3][3], d[3] = {0, 0, 0};
+    double axes[3][3], d[3];
     fst_set_axes_double(part->rotation, axes);
-    for (int a = 0; a < 3; ++a)
-        for (int i = 0; i < 3; ++i)
-            d[a] += axes[a][i] * (place[i] - part->centre[i]);
+    inwards(part, axes, place, d);
     const double *size = part->size;
     switch (part->kind) {
     case FST_PART_CUBOID:
@@ -142,6 +150,61 @@ double fst_part_distance(const fst_magnet_part *part, const double place[3])
     default:
         return hypot(hypot(d[0], d[1]), d[2]);
     }
+}
+
+/* ------------------------------------------------------------------ two parts */
+
+static double thickness(const fst_magnet_part *part)
+{
+    const double *size = part->size;
+    return part->kind == FST_PART_SPHERE     ? size[0]
+           : part->kind == FST_PART_CYLINDER ? fmin(size[0], size[1])
+                                             : fmin(size[0], fmin(size[1], size[2]));
+}
+
+/* Shorten a vector of some components to a length. */
+static void shorten(double *v, int count, double most)
+{
+    const double length = count == 1   ? fabs(v[0])
+                          : count == 2 ? hypot(v[0], v[1])
+                                       : hypot(hypot(v[0], v[1]), v[2]);
+    for (int i = 0; i < count && length > most; ++i)
+        v[i] *= most / length;
+}
+
+/* Move a place to the nearest one within a part, `depth` below its surface at least. */
+static void move_within(const fst_magnet_part *part, double depth, double place[3])
+{
+    double axes[3][3], own[3];
+    fst_set_axes_double(part->rotation, axes);
+    inwards(part, axes, place, own);
+    for (int a = 0; a < 3 && part->kind == FST_PART_CUBOID; ++a)
+        shorten(&own[a], 1, 0.5 * part->size[a] - depth);
+    if (part->kind != FST_PART_CUBOID)
+        shorten(own, part->kind == FST_PART_SPHERE ? 3 : 2, 0.5 * part->size[0] - depth);
+    if (part->kind == FST_PART_CYLINDER)
+        shorten(&own[2], 1, 0.5 * part->size[1] - depth);
+    outwards(part, axes, own, place);
+}
+
+/* A place goes to and fro between the two, whose cores are convex: it comes as near to both as there is one.  A place in the
+ * core of one that is nearer to the core of the other than that lies below the surface is within both. */
+int fst_parts_overlap(const fst_magnet_part *one, const fst_magnet_part *other)
+{
+    enum { ROUNDS = 1000 };
+    if (one->kind == FST_PART_DIPOLE || other->kind == FST_PART_DIPOLE)
+        return 0;
+    const double depth = 5e-4 * fmin(thickness(one), thickness(other));
+    double place[3], from[3];
+    memcpy(place, one->centre, sizeof place);
+    for (int i = 0; i < ROUNDS; ++i) {
+        move_within(other, depth, place);
+        memcpy(from, place, sizeof from);
+        move_within(one, depth, place);
+        if (hypot(hypot(place[0] - from[0], place[1] - from[1]), place[2] - from[2]) < depth)
+            return 1;
+    }
+    return 0;
 }
 
 int fst_part_touched(const fst_params *params, const double place[3], double radius)

@@ -475,9 +475,97 @@ static void parts_are_seen(void **state)
         CHECK_CLOSE(fabs(seen.corners[k][1]), 0.015, 1e-15);
 }
 
+/* A part of a kind, turned as the seed says, whose sizes are 4 to 12 mm. */
+static fst_magnet_part any_part(int kind, unsigned *seed)
+{
+    fst_magnet_part part = {.kind = kind, .rotation = {0, 0, 0, 1}};
+    double numbers[10];
+    for (int i = 0; i < 10; ++i) {
+        *seed = *seed * 1664525u + 1013904223u;
+        numbers[i] = (double)(*seed >> 8) / (1 << 24);
+    }
+    for (int i = 0; i < 3; ++i) {
+        part.centre[i] = 0.01 * numbers[i];
+        part.size[i] = 0.004 + 0.008 * numbers[3 + i];
+        part.rotation[1 + i] = numbers[6 + i] - 0.5;
+    }
+    part.rotation[0] = 360.0 * numbers[9];
+    return part;
+}
+
+/* The second part beside the first, surface to surface but for `gap`: along the z of its own axes, which both share, and of a
+ * sphere along the same. */
+static void put_beside(const fst_magnet_part *one, fst_magnet_part *other, double gap)
+{
+    const double half[2] = {0.5 * one->size[one->kind == FST_PART_CUBOID     ? 2
+                                            : one->kind == FST_PART_CYLINDER ? 1
+                                                                             : 0],
+                            0.5 * other->size[other->kind == FST_PART_CUBOID     ? 2
+                                              : other->kind == FST_PART_CYLINDER ? 1
+                                                                                 : 0]};
+    double axes[3][3];
+    memcpy(other->rotation, one->rotation, sizeof other->rotation);
+    fst_set_axes_double(one->rotation, axes);
+    for (int i = 0; i < 3; ++i)
+        other->centre[i] = one->centre[i] + (half[0] + half[1] + gap) * axes[2][i];
+}
+
+static void parts_that_touch_do_not_overlap(void **state)
+{
+    (void)state;
+    unsigned seed = 1;
+    for (int trial = 0; trial < 90; ++trial) {
+        const fst_magnet_part one = any_part(trial % 3, &seed);
+        fst_magnet_part other = any_part(trial / 3 % 3, &seed);
+        put_beside(&one, &other, 0.0);
+        assert_false(fst_parts_overlap(&one, &other));
+        assert_false(fst_parts_overlap(&other, &one));
+        put_beside(&one, &other, -1e-4); /* 2 % of the thinnest at least */
+        assert_true(fst_parts_overlap(&one, &other));
+        assert_true(fst_parts_overlap(&other, &one));
+    }
+    fst_magnet_part dipole = any_part(FST_PART_DIPOLE, &seed), block = any_part(FST_PART_CUBOID, &seed);
+    memcpy(dipole.centre, block.centre, sizeof dipole.centre);
+    assert_false(fst_parts_overlap(&dipole, &block));
+}
+
+/* However two parts stand, they overlap where a place lies in both, and where they do there is one. */
+static void parts_overlap_where_a_place_is_in_both(void **state)
+{
+    enum { GRID = 24 };
+    (void)state;
+    unsigned seed = 5;
+    int counts[2] = {0, 0};
+    for (int trial = 0; trial < 90; ++trial) {
+        const fst_magnet_part one = any_part(trial % 3, &seed), other = any_part(trial / 3 % 3, &seed);
+        fst_magnet_part core = other;
+        for (int i = 0; i < 3; ++i)
+            core.size[i] -= 2e-4;
+        const double step = 0.024 / GRID; /* over a box about the first, however it is turned */
+        double nearest = INFINITY;
+        int deep = 0;
+        for (int k = 0; k < GRID * GRID * GRID; ++k) {
+            double place[3];
+            for (int i = 0, at = k; i < 3; ++i, at /= GRID)
+                place[i] = one.centre[i] - 0.012 + step * (at % GRID + 0.5);
+            if (fst_part_distance(&one, place) > 0.0)
+                continue;
+            nearest = fmin(nearest, fst_part_distance(&other, place));
+            deep |= fst_part_distance(&core, place) == 0.0;
+        }
+        const int found = fst_parts_overlap(&one, &other);
+        assert_true(!deep || found);
+        assert_true(!found || nearest < 2.0 * step);
+        ++counts[found];
+    }
+    assert_true(counts[0] > 10 && counts[1] > 10);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(parts_that_touch_do_not_overlap),
+        cmocka_unit_test(parts_overlap_where_a_place_is_in_both),
         cmocka_unit_test(parts_are_read),
         cmocka_unit_test(scenes_come_back),
         cmocka_unit_test(lists_replace),
