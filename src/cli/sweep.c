@@ -2,6 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <festoon/beads.h>
+
 #include "cli/command.h"
 #include "cli/terminal.h"
 
@@ -123,7 +125,8 @@ typedef struct display {
     fst_sweep_counts counts;  /* the library keeps them up to date */
     fst_params contradiction; /* a point whose bead cannot be made of any material */
     int to_warn;
-    int can_draw; /* it varies so few parameters that festoon plot shows it */
+    char idle[160]; /* keys that are varied in vain; "": none */
+    int can_draw;   /* it varies so few parameters that festoon plot shows it */
 } display;
 
 /* Warn once; of several ranks only rank 0 does. */
@@ -131,7 +134,52 @@ static void warn_once(display *shown, int rank)
 {
     if (shown->to_warn && rank == 0)
         warn_of_material(&shown->contradiction);
+    if (shown->idle[0] && rank == 0)
+        (void)fprintf(
+            stderr,
+            "festoon: all points along %s have one motion, but for its units: the scaled numbers on which "
+            "that depends are given otherwise (festoon check tells model.kappa and the others)\n",
+            shown->idle);
     shown->to_warn = 0;
+    shown->idle[0] = '\0';
+}
+
+/* Whether beads with these parameters, which differ in a key of the bead or of the magnet, move alike but for units: from one
+ * start, with the same rates at any other state, and the same load and edge. */
+static int same_motion(const fst_params both[2])
+{
+    static const double any[FST_STATE_SIZE] = {0.3, 0.5, 0.02, -0.01, 0.6, 0.0, 0.8, 0.1, -0.2, 0.05};
+    double numbers[2][2 * FST_STATE_SIZE + 2];
+    int made = 0;
+    for (int i = 0; i < 2; ++i) {
+        fst_model *model;
+        if (both[i].bead_count || fst_key_of_world(&both[i]) || fst_model_new(&both[i], &model, NULL) != FST_OK)
+            continue;
+        const fst_groups g = fst_model_groups(model);
+        made += fst_start_state(&both[i], model, numbers[i], NULL) == FST_OK;
+        fst_rhs(model, any, numbers[i] + FST_STATE_SIZE);
+        numbers[i][2 * FST_STATE_SIZE] = g.gravity;
+        numbers[i][2 * FST_STATE_SIZE + 1] = g.plate_radius;
+        fst_model_free(model);
+    }
+    return made == 2 && memcmp(numbers[0], numbers[1], sizeof *numbers) == 0;
+}
+
+/* Whether an axis changes nothing but units: seen from the first point and from the last one. */
+static int is_idle(const fst_grid *grid, int axis)
+{
+    const char *key = fst_grid_key(grid, axis);
+    const int64_t count = fst_grid_axis_points(grid, axis), stride = fst_grid_axis_stride(grid, axis);
+    const int64_t corners[2] = {0, fst_grid_points(grid) - 1}, others[3] = {0, 1, count - 1};
+    int alike = count > 1 && (strncmp(key, "bead.", 5) == 0 || strncmp(key, "magnet.", 7) == 0);
+    for (int k = 0; k < 6 && alike; ++k) {
+        const int64_t corner = corners[k / 3],
+                      moved = corner + (others[k % 3] - corner / stride % count) * stride;
+        fst_params both[2];
+        alike = fst_grid_params(grid, corner, &both[0], NULL) == FST_OK &&
+                fst_grid_params(grid, moved, &both[1], NULL) == FST_OK && same_motion(both);
+    }
+    return alike;
 }
 
 /* Look over the grid: for a contradiction, of which one warning is enough, and whether a figure can show it. */
@@ -152,6 +200,12 @@ static fst_status look_over(display *shown, const fst_params *params, const fst_
                                          &ignored) == FST_OK &&
                          fst_bead_contradiction(&shown->contradiction, sentence, sizeof sentence) != 0;
     shown->can_draw = params->bead_count == 0;
+    for (int a = 0; a < fst_grid_axis_count(grid) && !sweep->levitation; ++a)
+        if (is_idle(grid, a)) {
+            const size_t used = strlen(shown->idle);
+            (void)snprintf(shown->idle + used, sizeof shown->idle - used, "%s%s", used ? " and " : "",
+                           fst_grid_key(grid, a));
+        }
     for (int a = 0; a < fst_grid_axis_count(grid); ++a)
         if (fst_grid_axis_points(grid, a) > 1) {
             varied += 1;

@@ -1,8 +1,9 @@
 """A warning names a bead whose mass and radius contradict any material, in words and in the JSON of `check`.
 
-tests: model/material.c model/bare_number.c cli/check.c
+tests: model/material.c model/bare_number.c cli/check.c cli/sweep.c
 labels: numbers"""
 
+import csv
 import json
 import tempfile
 import unittest
@@ -67,6 +68,26 @@ class Material(unittest.TestCase):
                 path = Path(folder) / f"{len(list(Path(folder).iterdir()))}.db"
                 status, out, err = festoon("sweep", *axes, *SHORT, "-o", str(path))
                 self.assertEqual((status, err.count("warning")), (0, count), (axes, err))
+            for axes, idle in (  # kappa is 1.5, whatever else is said, unless moment and b0 are both known
+                    (["--over", "bead.moment=0.01,0.02"], "bead.moment"), (["--over", "magnet.b0=1mT,2mT,3mT"], "magnet.b0"),
+                    (["--over", "bead.mass=0.4g,0.5g", "--over", "magnet.b0=1mT,2mT"], "bead.mass and magnet.b0"),
+                    (["--over", "bead.moment=0.01,0.02", "--set", "magnet.b0=2mT"], None),
+                    (["--over", "bead.moment=0.01,0.02", "--set", "magnet.b0=2mT", "--set", "model.kappa=2"], "bead.moment"),
+                    (["--over", "bead.mass=0.4g,0.5g", "--set", "magnet.b0=2mT", "--set", "bead.moment=0.01"], None),
+                    (["--over", "bead.radius=2.5mm,2.6mm"], None), (["--over", "bead.inertia=0.4,0.5"], None),
+                    (["--over", "magnet.depth=16mm,17mm"], None), (["--over", "magnet.depth=16mm,17mm", "--set", "model.h=0.8"], None),
+                    (["--over", "bead.a=1,2"], None), (["--over", "bead.a=0.1,0.2", "--set", "bead.material=mixed"], None),
+                    (["--over", "run.rtol=1e-8,1e-9"], None), (["--over", "bead.moment=0.01,0.01"], "bead.moment")):
+                path = Path(folder) / f"{len(list(Path(folder).iterdir()))}.db"
+                status, out, err = festoon("sweep", *axes, *SHORT, "-o", str(path))
+                if "no effect" in err:
+                    continue
+                self.assertEqual(status, 0, err)
+                told = [line.split("along ")[1].split(" have")[0] for line in err.splitlines() if "have one motion" in line]
+                self.assertEqual(told, [idle] if idle else [], (axes, err))
+                rows = list(csv.reader(festoon("export", str(path), "--csv")[1].splitlines()))
+                results = [row[rows[0].index("mean_r"):rows[0].index("mean_nz")] for row in rows[1:]]
+                self.assertEqual(bool(idle), all(row == results[0] for row in results) and results[0][0] != "", axes)
         status, out, err = festoon("branch", "--kind", "counter", "--over", "bead.radius=2.499mm:2.5mm")
         self.assertEqual((status, err.count("warning")), (0, 1), err)
 
