@@ -25,7 +25,7 @@ def run(*more):
 def number(text, name, unit):
     """The number before `unit` on the line that begins with `name`."""
     (line,) = [line for line in text.splitlines() if line.strip().startswith(name + "  ")]
-    found = re.search(r"(\S+) " + re.escape(unit) + "$", line)
+    found = re.search(r"(\S+) +" + re.escape(unit) + "$", line)
     assert found, f"{line!r} does not end in {unit}"
     return float(found.group(1))
 
@@ -134,7 +134,11 @@ def test_worlds_and_several_beads_in_all_units():
                 # A line of a report ends in numbers and their unit; tables have their units above the numbers.
                 found = re.findall(r"^  (?:[a-z<'].*?)  +((?:-?[\d.e+-]+ +)*-?[\d.e+-]+)  ?([a-zA-Z/^ 0-9]*)$", texts[-1], re.M)
                 reports.append([(float(number.split()[-1]), unit.strip()) for number, unit in found])
-            told = json.loads(subprocess.run([*run_it, "--json"], capture_output=True, text=True, check=True).stdout)["scene"]
+            result = json.loads(subprocess.run([*run_it, "--json"], capture_output=True, text=True, check=True).stdout)
+            told = result["scene"]
+            if scene.parent.name == "worlds":
+                close(number(texts[-1], "mean distance from the axis", "l"), result["mean_r"])
+                close(number(texts[-1], "power of the drive", "l^2 gamma^3"), result["mean_drive_power"])
             units = (LAB, SI, scaled_units(told))
             assert [name for name, _ in fields[0]] == [name for name, _ in fields[1]] == [name for name, _ in fields[2]]
             same_in_si([[(value, unit) for value, (_, unit) in zip(row, units_of, strict=True)]
