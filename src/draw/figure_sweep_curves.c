@@ -16,6 +16,7 @@ typedef struct drawing {
     size_t points;   /* how many are drawn */
     int64_t *chosen; /* which ones */
     int *gaps;       /* what each of them is, a row of `signs`; -1: a motion, or not run */
+    size_t failed;   /* points of the slice, drawn or not */
     int all_gaps;    /* there is no motion among them, an undecided one neither */
     double *x;
     fst_chart_curve *curves;
@@ -82,12 +83,18 @@ enum { UNDECIDED, SIGNS = sizeof signs / sizeof *signs, FAILED = SIGNS - 1 };
 static const double EDGE = 0.03; /* how high signs stand over the lower edge, in parts of the panel */
 
 /* Which of these the points are that are drawn; the key of their states is the one behind `count` others.  0: no memory. */
-static int note_gaps(drawing *d, int count)
+static int note_gaps(drawing *d, const fst_sweep_slice *slice, int count)
 {
-    const fst_sweep_names *names = fst_sweep_names_of(fst_sweep_state_key(d->table->grid));
+    const fst_grid *grid = d->table->grid;
+    const double *all = d->table->values + (size_t)count * (size_t)fst_grid_points(grid);
+    const fst_sweep_names *names = fst_sweep_names_of(fst_sweep_state_key(grid));
     const double *states = values_of(d, count, 1.0);
     d->gaps = fst_chart_keep(d->chart, (d->points + 1) * sizeof *d->gaps);
     d->all_gaps = d->points > 0;
+    for (int64_t i = 0; i < slice->axes[0].count; ++i) {
+        const int64_t point = slice->start + i * fst_grid_axis_stride(grid, slice->axes[0].index);
+        d->failed += d->table->computed[point] && isnan(all[point]);
+    }
     for (size_t i = 0; states && d->gaps && i < d->points; ++i) {
         const int failed = isnan(states[i]) && d->table->computed[d->chosen[i]];
         d->gaps[i] = failed ? FAILED : -1;
@@ -105,10 +112,7 @@ static int add_signs(drawing *d, const double *values, int told)
 {
     const fst_sweep_names *names = fst_sweep_names_of(fst_sweep_state_key(d->table->grid));
     char failed[48];
-    size_t count = 0;
-    for (size_t i = 0; i < d->points; ++i)
-        count += d->gaps[i] == FAILED;
-    (void)snprintf(failed, sizeof failed, "failed: %zu point%s", count, count == 1 ? "" : "s");
+    (void)snprintf(failed, sizeof failed, "failed: %zu point%s", d->failed, d->failed == 1 ? "" : "s");
     for (int g = 0; g < SIGNS; ++g) {
         double *y = fst_chart_keep(d->chart, (d->points + 1) * sizeof *y);
         const char *title = fst_chart_text(d->chart, g == FAILED ? failed : signs[g].word);
@@ -256,7 +260,7 @@ static fst_status fill(drawing *d, const fst_sweep_quantity *quantities, int cou
     d->panels = fst_chart_keep(d->chart, (size_t)count * sizeof *d->panels);
     if (step == 0 || !d->x || !d->curves || !d->panels)
         return FST_NO_MEMORY;
-    if (!note_gaps(d, count))
+    if (!note_gaps(d, slice, count))
         return FST_NO_MEMORY;
     lay_abscissa(d, &slice->axes[0]);
     fst_sweep_about(d->table, slice, d->about, sizeof d->about);

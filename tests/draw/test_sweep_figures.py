@@ -502,6 +502,12 @@ class ManyPoints(Figures):
             self.assertAlmostEqual(x, 0.1 + 0.001 * 11 * i, 6)
             self.assertLess(abs(y / (23 * (0.5 + 11 * i)) - 1), 1e-6)
 
+    def test_failed_runs_that_are_not_drawn_count(self):
+        self.fill("c.db", 20001, "0.5 + i", "drive.frequency=0.1Hz:100.1Hz:20001")
+        change(self.path("c.db"), "UPDATE rows SET status = 'failed', regime = NULL, mean_r = NULL WHERE point IN (3, 4, 6)")
+        self.plot("c.db", "--quantity", "mean_r")  # one point of three
+        self.assertEqual([(said, len(points)) for _, said, points in self.signs], [("failed: 3 points", 2)])
+
     def test_maps(self):
         self.fill("m.db", 2050 * 10, "i", "model.kappa=1:10:10", "drive.frequency=1Hz:206Hz:2050")
         script, cells = self.cells("m.db", "--quantity", "mean_r")
