@@ -33,13 +33,14 @@ from .beads_trajectories import BeadsTrajectory
 from .bead import Bead, Groups, MaterialWarning
 from .branches import Branch
 from .critical import Critical
-from .files import export, paper, read, schema
+from .files import export, merge, paper, read, schema
 from .films import track
 from .flows import Flow
 from .fitting import Fit, fit
 from .measuring import Measurement, Track, measure, read_track, save_points
 from .orbits import Locked, LockedStates, Lyapunov, Orbit
 from .runs import Run
+from .smoothing import SmoothedMap
 from .sweeping import sweep
 from .sweep_tables import SweepTable
 from .sweeps import Sweep
@@ -89,6 +90,7 @@ __all__ = [
     "Orbit",
     "OutOfMemory",
     "Run",
+    "SmoothedMap",
     "StepUnderflow",
     "Sweep",
     "SweepTable",
@@ -103,6 +105,7 @@ __all__ = [
     "figures",
     "fit",
     "measure",
+    "merge",
     "paper",
     "plots",
     "read",

@@ -60,11 +60,12 @@ def units_of(name: str) -> int:
 
 
 class Scales:
-    """Factors from scaled numbers to other units, of one bead."""
+    """Factors from scaled numbers to other units, of one bead, whose parameters or scales are given."""
 
     def __init__(self, params: Any, units: str) -> None:
         self._units = units_of(units)
-        self._scales = ffi.new("fst_scales *", lib.fst_scales_of(params))
+        given = ffi.typeof(params).kind == "struct" and ffi.typeof(params).cname == "fst_scales"
+        self._scales = ffi.new("fst_scales *", params if given else lib.fst_scales_of(params))
         self._known: Dict[str, Tuple[float, str]] = {}
 
     def factor(self, number: str, unit: str) -> Tuple[float, str]:

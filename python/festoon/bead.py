@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from .lab import Lab
     from .orbits import LockedStates, Lyapunov, Orbit
     from .runs import Run
+    from .smoothing import SmoothedMap
     from .sweeps import Sweep
 
 Path = Union[str, "os.PathLike[str]"]
@@ -831,6 +832,39 @@ class Bead(Parameters):
         from . import fields
 
         return fields.field(self, x, y, height, units)
+
+    def smooth(
+        self, *, noise: Union[None, float, str] = None, probe: bool = False, height: Any = None, progress: Progress = None
+    ) -> "SmoothedMap":
+        """Fit charges below the noisy map of the magnet (`magnet__file`): a `SmoothedMap`, as `festoon field --smooth`.
+
+        Parameters
+        ----------
+        noise
+            Of a component of a sample, T or a text with a unit; estimated unless given.
+        probe
+            Whether the probe's axes may be turned and have offsets, which are fitted too.
+        height
+            Of the plane that is wanted over the magnet's reference plane, m or a text with a unit; by default that
+            of the bead's centre.
+        progress
+            True: a bar; or a function of (fraction, what).
+
+        Returns
+        -------
+        SmoothedMap
+            With the field, its errors, and how well charges fit.
+
+        Raises
+        ------
+        BadInput
+            Where there is no map, or charges cannot fit it; the sentence says why.
+        Interrupted
+            After Ctrl-C.
+        """
+        from . import smoothing
+
+        return smoothing.smooth(self, noise, probe, height, progress)
 
     def rhs(self, states: Any) -> Any:
         """The equations of motion: the derivatives of states by time, in the turning frame at the bead's drive.

@@ -1,7 +1,7 @@
 """What several beads do for ever: periodic orbits, locked states with eigenvalues, and their branches."""
 
 import json
-from typing import TYPE_CHECKING, Any, Dict, List, Mapping
+from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Tuple
 
 import numpy as np
 
@@ -9,7 +9,8 @@ from ._errors import BadInput
 from ._native import Watch, ffi, lent, lib, options_of, take_text
 from ._pickled import Printed
 from ._progress import Progress
-from .bead import known_key
+from ._tabled import NUMBERS, Column, Shown, Table, about, numbers_of, scaled_columns, scales_of
+from .bead import known_key, row_of
 from .branches import range_of
 
 if TYPE_CHECKING:
@@ -20,7 +21,12 @@ def _numbers(pairs: Any) -> Any:
     return lent(np.array([complex(*pair) for pair in pairs]))
 
 
-class _Found(Printed):
+#: Units of what is told of beads and of all together.
+UNITS = {"r": "l", "mean_r": "l", "mean_alpha_dot": "gamma", "phi_deg": "deg", "load_weights": "m g", "period": "1/gamma", "omega": "gamma",
+         "power": "l^2 gamma^3", "eigenvalues": "gamma", "multipliers": "1", "residual": "1"}
+
+
+class _Found(Shown, Printed):
     """What was found of several beads.  Its numbers are scaled (l, 1/gamma); the program prints the same with --json."""
 
     #: The beads that were asked.
@@ -31,6 +37,19 @@ class _Found(Printed):
 
     def __reduce__(self) -> Any:
         return type(self), (self.setup, self._told)
+
+    def _of_beads(self, rows: Tuple[str, ...], beads: Any, units: Optional[str], **of_all: Any) -> Table:
+        """A table of lists of beads, one for each of the further rows, and of what all beads of a row share."""
+        shape = np.shape(beads)
+        dims, flat = (*rows, "bead"), [bead for row in (beads if rows else [beads]) for bead in row]
+        names = [name for name in flat[0] if name not in ("state", "n", "w", "z")]  # which the state has too
+        values = {name: np.array([bead[name] for bead in flat]).reshape(shape) for name in names}
+        values.update(numbers_of(np.array([bead["state"] for bead in flat]).reshape(*shape, len(NUMBERS))))
+        scales = scales_of(self.setup._params, units)
+        columns = scaled_columns(rows, of_all, UNITS, scales)
+        columns.update(scaled_columns(dims, values, {**UNITS, **NUMBERS}, scales))
+        coords = {name: Column((name,), np.arange(count)) for name, count in zip(dims, shape)}
+        return Table(dims, coords, columns, about(self.setup.scene()))
 
 
 class BeadsOrbit(_Found):
@@ -60,6 +79,9 @@ class BeadsOrbit(_Found):
     def beads(self) -> List[Dict[str, Any]]:
         """Of each bead mean_r [l], mean_alpha_dot [gamma] and the twelve numbers of a state on the orbit."""
         return [{**bead, "state": lent(np.array(bead["state"]))} for bead in self._told["beads"]]
+
+    def _table(self, units: Optional[str]) -> Table:
+        return self._of_beads((), self._told["beads"], units, period=self.period, multipliers=self.multipliers)
 
     def __repr__(self) -> str:
         beads = ", ".join(f"<r> {bead['mean_r']:.6g} l, <alpha'> {bead['mean_alpha_dot']:.6g} gamma" for bead in self.beads)
@@ -98,6 +120,11 @@ class BeadsLocked(_Found):
         """Contacts between beads: a and b (numbers from 0) and force [l gamma^2]."""
         return [dict(pair) for pair in self._state["pair_forces"]]
 
+    def _table(self, units: Optional[str]) -> Table:
+        state = self._state
+        of_all = {"power": self.power, "residual": state["residual"], "eigenvalues": self.eigenvalues}
+        return self._of_beads((), state["beads"], units, stable=self.stable, **of_all)
+
     def __repr__(self) -> str:
         words = "stable" if self.stable else "unstable"
         return f"BeadsLocked: {len(self._state['beads'])} beads, {words}, power {self.power:.6g} l^2 gamma^3"
@@ -130,6 +157,18 @@ class BeadsBranch(_Found):
     def specials(self) -> List[Dict[str, Any]]:
         """Where it bends, sways or breaks: type (fold, hopf, contact, ...) and value, and the state there."""
         return [dict(special) for special in self._told["specials"]]
+
+    def _table(self, units: Optional[str]) -> Table:
+        points = self._told["points"]
+        of_all: Dict[str, Any] = {name: np.array([point[name] for point in points]) for name in ("value", "omega", "power", "residual")}
+        most = max(len(point["eigenvalues"]) for point in points)
+        of_all["eigenvalues"] = np.full((len(points), most), np.nan * 1j)
+        for i, point in enumerate(points):
+            of_all["eigenvalues"][i, : len(point["eigenvalues"])] = _numbers(point["eigenvalues"])
+        made = self._of_beads(("point",), [point["beads"] for point in points], units, stable=self.stable, **of_all)
+        _, unit, doc = row_of(self.parameter)
+        made.columns["value"] = made.columns["value"]._replace(unit=unit, doc=doc, title=self.parameter)
+        return made
 
     def __repr__(self) -> str:
         specials = ", ".join(f"{special['type']} at {special['value']:.6g}" for special in self.specials)

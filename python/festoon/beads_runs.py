@@ -3,7 +3,7 @@
 import json
 import math
 import os
-from typing import TYPE_CHECKING, Any, Dict, List, Sequence, Union
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Union
 
 import numpy as np
 
@@ -11,7 +11,8 @@ from ._errors import BadInput
 from ._native import Watch, call, ffi, lent, lib, options_of, path_bytes, take_text
 from ._pickled import Printed
 from ._progress import Progress
-from ._quantities import Scales, quantity, units_of
+from ._quantities import quantity, units_of
+from ._tabled import NUMBERS, Column, Shown, Table, about, data_of, frame_of, key_unit, numbers_of, scaled_columns, scales_of
 from .bead import Bead
 from .beads_trajectories import trajectory_of
 
@@ -20,7 +21,8 @@ if TYPE_CHECKING:
 
 #: Units of what is not named by its own: of the keys of a run, scaled.
 UNITS = {"mean_r": "l", "mean_alpha_dot": "gamma", "ejected_at": "1/gamma", "centre_rate": "gamma", "axis_rate": "gamma",
-         "force": "l gamma^2", "time": "1/gamma", "speed": "l gamma"}
+         "force": "l gamma^2", "time": "1/gamma", "speed": "l gamma", "mean_load_weights": "m g",
+         **{f"final_{name}": unit for name, unit in NUMBERS.items()}}
 FRAMES = ("beads", "groups", "contacts", "events", "powers")
 
 
@@ -37,7 +39,7 @@ class _Ran(Printed):
         return [self._told, None if self.trajectory is None else self.trajectory.states.tobytes()]
 
 
-class BeadsRun(_Ran):
+class BeadsRun(Shown, _Ran):
     """The run of several beads: what `festoon run --json` prints, in scaled units (l, 1/gamma)."""
 
     #: The beads that ran.
@@ -108,7 +110,7 @@ class BeadsRun(_Ran):
     def _filled(self, what: str, kept: Sequence[str] = ()) -> List[Dict[str, Any]]:
         return [{name: value if name in kept else _number(value) for name, value in row.items()} for row in self._told[what]]
 
-    def to_pandas(self, what: str = "beads", units: str = "scaled") -> Any:
+    def to_pandas(self, what: str = "beads", units: Optional[str] = None) -> Any:  # type: ignore[override]
         """A data frame of the beads, the groups, the contacts, the events or the powers.
 
         Parameters
@@ -116,7 +118,7 @@ class BeadsRun(_Ran):
         what
             "beads", "groups", "contacts", "events" or "powers".
         units
-            "scaled", "lab" or "si"; forces and powers stay scaled.
+            "scaled", "lab" or "si"; by default scaled.
 
         Returns
         -------
@@ -128,19 +130,51 @@ class BeadsRun(_Ran):
         BadInput
             Where there is no such table, or units are unknown.
         """
-        import pandas
+        return frame_of(self._rows_of(what, units))
 
+    def to_xarray(self, what: str = "beads", units: Optional[str] = None) -> Any:  # type: ignore[override]
+        """A data set of the beads, the groups, the contacts, the events or the powers.
+
+        Parameters
+        ----------
+        what
+            "beads", "groups", "contacts", "events" or "powers".
+        units
+            "scaled", "lab" or "si"; by default scaled.
+
+        Returns
+        -------
+        xarray.Dataset
+            Units are in the `attrs` of the variables.
+
+        Raises
+        ------
+        BadInput
+            Where there is no such table, or units are unknown.
+        """
+        return data_of(self._rows_of(what, units))
+
+    def _table(self, units: Optional[str]) -> Table:
+        return self._rows_of("beads", units)
+
+    def _rows_of(self, what: str, units: Optional[str]) -> Table:
         if what not in FRAMES:
             raise BadInput("to_pandas", f'unknown table "{what}"; there are {", ".join(FRAMES)}')
+        one = what.removesuffix("s")
         rows: Any = [self.powers] if what == "powers" else getattr(self, what)
-        frame, scales = pandas.DataFrame(rows), Scales(self.setup._params, units)
-        told = {}
-        for name, unit in UNITS.items():
-            if name in frame and what != "contacts":
-                factor, told[name] = scales.factor("mean_alpha_dot" if unit == "gamma" else name, unit)
-                frame[name] = frame[name] * factor
-        frame.attrs.update(units=told, scene=self.setup.scene(), version=self._told["version"])
-        return frame
+        values = {name: [row[name] for row in rows] for name in (rows[0] if rows else {})}
+        if what == "beads":
+            values.update(numbers_of(np.array(values.pop("final_state")), before="final_"))
+        arrays: Dict[str, Any] = {}
+        for name, column in values.items():
+            words = isinstance(column[0], (list, str)) or None in column  # members of a group, a name, or the plate
+            arrays[name] = np.array([", ".join(map(str, v)) if isinstance(v, list) else v for v in column], object) if words else np.array(column)
+        known = about(self.setup.scene(), outcome=self.outcome)
+        units_known = {**UNITS, **({name: "l^2 gamma^3" for name in arrays} if what == "powers" else {})}
+        columns = scaled_columns((one,), arrays, units_known, scales_of(self.setup._params, units), {})
+        if what == "powers":  # of all beads together
+            return Table((), {}, {name: column._replace(dims=(), values=column.values[0]) for name, column in columns.items()}, known)
+        return Table((one,), {one: Column((one,), np.arange(len(rows)))}, columns, known)
 
     def __reduce__(self) -> Any:
         return BeadsRun, (self.setup, self._told, self.trajectory)
@@ -151,7 +185,7 @@ class BeadsRun(_Ran):
         return "\n".join([*lines, "  all its numbers: to_dict(); as tables: to_pandas('events')"])
 
 
-class WorldRun(_Ran):
+class WorldRun(Shown, _Ran):
     """What one bead in a world does: in a bowl, a fluid, fields of the laboratory, or without a plate.
 
     Its attributes are the keys of `festoon run --json`, scaled (l, 1/gamma) unless they name a unit: regime, reason,
@@ -166,11 +200,22 @@ class WorldRun(_Ran):
     def __init__(self, bead: Bead, told: Dict[str, Any], trajectory: Any = None) -> None:
         self.bead, self._told, self.trajectory = bead, told, trajectory
 
+    def _table(self, units: Optional[str]) -> Table:
+        """One row."""
+        told = {name: _number(value) for name, value in self._told.items() if not isinstance(value, (list, dict))}
+        told["symmetry"] = self._told["symmetry"] or ""
+        values = {**told, **numbers_of(np.array(self._told["final_state"]), before="final_")}
+        known = {name: key_unit(name) for name in told if not isinstance(told[name], str)}
+        known.update(UNITS, final_time="1/gamma", end_time="1/gamma", mean_velocity="l gamma", mean_velocity_error="l gamma")
+        return Table((), {}, scaled_columns((), values, known, scales_of(self.bead._params, units)), about(self.bead.scene()))
+
     def __getattr__(self, name: str) -> Any:
         told = self.__dict__.get("_told", {})
         if name not in told:
             raise AttributeError(name)
         value = told[name]
+        if name == "symmetry":
+            return value
         return lent(np.array(value, float)) if isinstance(value, list) else _number(value)
 
     def __dir__(self) -> List[str]:

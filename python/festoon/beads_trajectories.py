@@ -1,7 +1,7 @@
 """Trajectories of several beads, and of one bead in a world."""
 
 import math
-from typing import Any, Dict, Optional
+from typing import Any, Dict, List, Optional
 
 import numpy as np
 
@@ -9,12 +9,13 @@ from ._native import Watch, ffi, freed_array, lent, lib, owned_array, path_bytes
 from ._pickled import Told
 from ._progress import Progress
 from ._quantities import Scales, units_of
+from ._tabled import DOCS, NUMBERS, Column, Shown, Table, about, numbers_of, scaled_columns, scales_of
 from .bead import Bead, Path
 from .beads import Beads
 from .films import Filmed
 
 
-class BeadsTrajectory(Filmed, Told):
+class BeadsTrajectory(Filmed, Shown, Told):
     """The samples of a run of several beads, or of one in a world, scaled (l, 1/gamma).
 
     >>> pair = Beads(beads=[{"start__phi": 3}, {"start__phi": 183}], frequency="30 Hz", run__periods=2, run__discard=1)
@@ -59,8 +60,27 @@ class BeadsTrajectory(Filmed, Told):
         """
         return {"t": self.t, "drive_turns": self.drive_turns, "states": self.states, "loads": self.loads}
 
+    def __getattr__(self, name: str) -> Any:
+        """X, Y, ..., WZ of the states, of the shape (samples, beads)."""
+        if name not in NUMBERS:
+            raise AttributeError(name)
+        return self.states[..., list(NUMBERS).index(name)]
+
+    def __dir__(self) -> List[str]:
+        return [*super().__dir__(), *NUMBERS]
+
     def __len__(self) -> int:
         return len(self.t)
+
+    def _table(self, units: Optional[str]) -> Table:
+        scales = scales_of(self.setup._params, units)
+        docs = {**DOCS, "load": "force on the plate per mass of bead 0; not a number where the bead does not touch it"}
+        times = scaled_columns(("t",), {"t": self.t, "drive_turns": self.drive_turns}, {"t": "1/gamma", "drive_turns": "turn"}, scales)
+        numbers = {**numbers_of(self.states), "load": self.loads}
+        columns = scaled_columns(("t", "bead"), numbers, {**NUMBERS, "load": "l gamma^2"}, scales, docs)
+        beads = Column(("bead",), np.arange(self.states.shape[1]), "", "number of the bead")
+        coords = {"t": times["t"], "bead": beads, "drive_turns": times["drive_turns"]}
+        return Table(("t", "bead"), coords, columns, about(self.setup.scene(), frame=self.frame))
 
     def places(self, units: str = "scaled") -> Any:
         """Where the beads are in the laboratory, as a camera over the plate sees them.
@@ -159,7 +179,7 @@ class BeadsTrajectory(Filmed, Told):
 
         films.movie(self, path, progress, **options)
 
-    def _table(self) -> Any:
+    def _rows(self) -> Any:
         """The samples as the library has them, and what must stay alive with them.  Pairs touch without a gap."""
         rows, beads = self.states.shape[:2]
         alone = [self.setup.alone(i) if isinstance(self.setup, Beads) else self.setup for i in range(beads)]

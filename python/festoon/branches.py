@@ -1,6 +1,7 @@
 """Branches of orbits and of locked states."""
 
 import json
+import math
 from typing import Any, Dict, Iterator, List, Mapping, Optional, Tuple
 
 import numpy as np
@@ -23,13 +24,29 @@ from ._native import (
 )
 from ._pickled import Told, image_of, struct_of
 from ._progress import Progress
-from ._quantities import quantity
-from .bead import Bead, keyword_of, known_key
+from ._quantities import Scales, quantity
+from ._tabled import OF_PLATE, NUMBERS, Column, Shown, Table, about, numbers_of, scaled_columns
+from .bead import Bead, keyword_of, known_key, row_of
 from .orbits import Path, _choose, _names, _Single
+from .runs import SYMMETRIES
+
+
+
+def _observables() -> Iterator[Any]:
+    number = 0
+    while lib.fst_branch_observable_at(number):
+        yield lib.fst_branch_observable_at(number)
+        number += 1
+
 
 KINDS = _names(lib.fst_branch_kind_name, lib.FST_BRANCH_COUNT)
 SPECIALS = _names(lib.fst_special_name, lib.FST_SPECIAL_COUNT)
 ENDS = _names(lib.fst_end_name, lib.FST_END_COUNT)
+
+
+#: Units of the numbers of a point; those of the parameters follow from their keys.
+UNITS = {text_of(row.name).replace("phi_deg", "bead_angle_deg"): text_of(row.unit) for row in _observables()}
+UNITS.update(omega="gamma", height_mm="mm", circle_mm="mm", gap_mm="mm", position_m="m", w_per_s="1/s")
 
 
 class Special(_Single):
@@ -86,7 +103,7 @@ class BranchEnd:
         return f"BranchEnd: branch {self.branch} at {self.value:.9g}, {self.type}: {self.reason}"
 
 
-class Branch(Told):
+class Branch(Shown, Told):
     """Families of orbits or of locked states over a parameter.
 
     `points` is an array over the library's memory, its fields those of fst_branch_point: value, omega, mean_r,
@@ -146,6 +163,38 @@ class Branch(Told):
         values = self.points["multiplier_re"] + 1j * self.points["multiplier_im"]
         values[np.arange(values.shape[1]) >= self.points["multipliers"][:, None]] = np.nan
         return lent(values)
+
+    def _scales(self, units: Optional[str]) -> Scales:
+        """Those of the bead, or of the file from which the branch was read, as far as it tells them."""
+        if self.bead is not None or self._branch.scene:
+            return Scales(self.bead._params if self.bead is not None else self._branch.scene, units or "scaled")
+        scales = ffi.new("fst_scales *", [self._branch.half_length, 1.0 / self._branch.gamma, math.nan, math.nan])
+        return Scales(scales[0], units or "scaled")
+
+    def _table(self, units: Optional[str]) -> Table:
+        values, floats = {}, self.kind == "levitating"
+        for source in (self.points, self.points["levitation"]) if floats else (self.points,):
+            for name in source.dtype.names:
+                if name not in ("levitation", "state", "multipliers") and not name.endswith(("_re", "_im")):
+                    values[name] = source[name]
+        values["symmetry"] = np.array([name or "" for name in SYMMETRIES])[values["symmetry"]]
+        values["stable"] = values["stable"].astype(bool)
+        if self.second_key is None:
+            del values["second"]
+        at_rest = self.kind != "driven" and bool(np.all(self.points["multipliers"] == lib.FST_EIGENVALUE_COUNT))
+        eigen = "1/s" if floats else "gamma" if at_rest else "1"
+        values["multipliers" if eigen == "1" else "eigenvalues"] = self.multipliers
+        in_three = np.any(self.points["levitation"]["state"])
+        states = numbers_of(self.points["levitation"]["state"]) if in_three else numbers_of(self.points["state"], OF_PLATE)
+        known = {**UNITS, **NUMBERS, "multipliers": "1", "eigenvalues": eigen}
+        known.update(value=row_of(self.key)[1], second=row_of(self.second_key)[1] if self.second_key else "")
+        made = scaled_columns(("point",), {**values, **states}, known, self._scales(units))
+        for name, key in (("value", self.key), ("second", self.second_key)):
+            if name in made and key:
+                made[name] = made[name]._replace(doc=row_of(key)[2], title=key)
+        point = Column(("point",), np.arange(len(self)), "", "number of the point")
+        scene = "" if self.bead is None else self.bead.scene()
+        return Table(("point",), {"point": point}, made, about(scene, kind=self.kind, parameter=self.key))
 
     def save(self, path: Path) -> None:
         """Write the branch as JSON, which the program and festoon.read() read.

@@ -1,12 +1,15 @@
 """The critical speed: from which drive on does the bead circle against the magnet?"""
 
 import json
-from typing import Any, Dict, NamedTuple, Tuple
+from typing import Any, Dict, NamedTuple, Optional, Tuple
+
+import numpy as np
 
 from ._native import Watch, ffi, lib, take_text
 from ._pickled import Told
 from ._progress import Progress
-from .bead import Bead
+from ._tabled import Column, Table, Tabled, about, own_units
+from .bead import Bead, row_of
 
 
 class Stretch(NamedTuple):
@@ -18,7 +21,7 @@ class Stretch(NamedTuple):
     runs: int
 
 
-class Critical(Told):
+class Critical(Tabled, Told):
     """The critical speed and the runs that enclose it; see docs/orbits.md, "The critical speed"."""
 
     def __init__(self, bead: Bead, told: Dict[str, Any]) -> None:
@@ -41,6 +44,17 @@ class Critical(Told):
         self.stretches: Tuple[Stretch, ...] = tuple(
             Stretch(row["from"], row["to"], row["regime"], row["runs"]) for row in told["stretches"]
         )
+
+    def _table(self, units: Optional[str]) -> Table:
+        """Its stretches."""
+        own_units(units, "Critical")
+        unit = {"begin": row_of(self.key)[1], "end": row_of(self.key)[1]}
+        columns = {
+            name: Column(("stretch",), np.array([getattr(one, name) for one in self.stretches]), unit.get(name, ""))
+            for name in Stretch._fields
+        }
+        stretch = Column(("stretch",), np.arange(len(self.stretches)))
+        return Table(("stretch",), {"stretch": stretch}, columns, about(self.bead.scene(), parameter=self.key))
 
     def to_dict(self) -> Dict[str, Any]:
         """What `festoon critical --json` prints.

@@ -23,6 +23,14 @@ def _scaled(value: Any, units: str, length: float) -> Any:
     return numbers / length if units == "si" else numbers
 
 
+def places(x: Any, y: Any, units: str, length: float) -> Tuple[Any, Any, Tuple[int, ...]]:
+    """Places in l, flat, and their shape."""
+    if units not in ("scaled", "si"):
+        raise BadInput("field", f'unknown units "{units}": scaled or si')
+    xs, ys = np.broadcast_arrays(_scaled(x, units, length), _scaled(y, units, length))
+    return np.ascontiguousarray(xs).ravel(), np.ascontiguousarray(ys).ravel(), xs.shape
+
+
 def _in_pieces(function: Any, bead: Bead, count: int, arrays: Any) -> None:
     """A function of the library over arrays, given with their numbers to a point; between pieces Python obeys Ctrl-C."""
     places = [(ffi.from_buffer("double[]", values), width) for values, width in arrays]
@@ -64,19 +72,15 @@ def observe(bead: Bead, states: Any) -> Any:
     return made.view(np.recarray)
 
 
-def field(bead: Bead, x: Any, y: Any, height: Any, units: str) -> Tuple[Any, Any]:
-    """See Bead.field()."""
-    if units not in ("scaled", "si"):
-        raise BadInput("field", f'unknown units "{units}": scaled or si')
+def field(bead: Any, x: Any, y: Any, height: Any, units: str) -> Tuple[Any, Any]:
+    """See Bead.field(); `bead` may also be a smoothed map."""
     groups = lib.fst_model_groups(bead._flat_model)
     length, tesla = float(groups.length_unit), float(groups.field_unit)
     if units == "si" and math.isnan(tesla):
         raise BadInput("field", "B0 in tesla does not follow from the parameters: give magnet.b0 or bead.moment")
     if height is not None:
         bead = bead.replace(model__h=float(_scaled(height, units, length)))
-    xs, ys = np.broadcast_arrays(_scaled(x, units, length), _scaled(y, units, length))
-    shape = xs.shape
-    xs, ys = np.ascontiguousarray(xs).ravel(), np.ascontiguousarray(ys).ravel()
+    xs, ys, shape = places(x, y, units, length)
     b, grad = np.empty((*shape, 3)), np.empty((*shape, 3, 3))
     if xs.size:
         _in_pieces(lib.pyf_field, bead, xs.size, [(xs, 1), (ys, 1), (b, 3), (grad, 9)])

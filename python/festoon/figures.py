@@ -74,7 +74,7 @@ def trajectory(
     for i, word in enumerate(words):
         kept.append(ffi.new("char[]", word.encode()))
         options.keys[i] = kept[-1]
-    table, arrays = samples._table()
+    table, arrays = samples._rows()
     call(lib.fst_figure_trajectory, table, path_bytes(path), options)
     del arrays, kept
 

@@ -3,10 +3,12 @@
 import json
 import os
 import subprocess
+import warnings
 from typing import Any, Dict, Iterable, List, Optional, Union
 
 from ._errors import BadInput, FestoonError, Unavailable
-from ._native import Watch, call, ffi, lib, path_bytes, strings, take_text
+from ._native import Watch, call, ffi, lib, path_bytes, strings, take_text, text_of
+from ._progress import Progress
 from ._quantities import units_of
 from .beads_trajectories import read as read_beads
 from .branches import read_branch
@@ -52,6 +54,47 @@ def export(
         raise BadInput("export", f'"{name}" must end in .csv, .json or .h5')
     with Watch(None) as watch:
         watch.call(lib.fst_sweep_export, path_bytes(database), endings[ending], path_bytes(path), ffi.NULL, watch.told)
+
+
+def merge(databases: Iterable[Path], path: Path, *, progress: Progress = None) -> Any:
+    """Join the shards of a sweep, whole or not, in one new database, as `festoon merge` does, and read it.
+
+    The files are only read, in any order, and may overlap.  A warning names points without a row; the call of
+    `festoon.sweep` that made the shards, without `shard` and with the new file, computes them.
+
+    Parameters
+    ----------
+    databases
+        The shards.
+    path
+        The new database.
+    progress
+        True: a bar; or a function of (fraction, what).
+
+    Returns
+    -------
+    Sweep or SweepTable
+        All rows.
+
+    Raises
+    ------
+    BadInput
+        Where the new file is there already, or the files are not of one sweep, or their rows differ, or some are
+        damaged; of the last the others are merged all the same.
+    MissingFile
+        Where a file is not there.
+    Interrupted
+        After Ctrl-C; nothing is written.
+    """
+    if isinstance(databases, (str, bytes, os.PathLike)):
+        raise BadInput("merge", "it takes a list of databases and the path of the new one")
+    kept = [ffi.new("char[]", path_bytes(name)) for name in databases]
+    merged = ffi.new("fst_sweep_merged *")
+    with Watch(progress, title="merge") as watch:
+        watch.call(lib.fst_sweep_merge, ffi.new("const char *[]", kept), len(kept), path_bytes(path), watch.told, merged)
+    if merged.rows < merged.points:
+        warnings.warn(f"{merged.points - merged.rows} of {merged.points} points have no row: {text_of(merged.missing)}", stacklevel=2)
+    return read_sweep(path)
 
 
 def schema() -> List[Dict[str, Any]]:

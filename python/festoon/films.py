@@ -16,7 +16,7 @@ def movie(samples: Any, path: Path, progress: Progress, **given: Any) -> None:
     """See Trajectory.movie() and BeadsTrajectory.movie()."""
     options = options_of(lib.fst_default_film_options())
     kept = set_options(options, given, "movie")
-    table, arrays = samples._table()
+    table, arrays = samples._rows()
     with Watch(progress, title="film") as watch:
         options.progress = watch.told
         of_beads = ffi.typeof(table) is ffi.typeof("fst_beads_table *")
@@ -98,7 +98,7 @@ def camera(samples: Any, path: Path, truth: Optional[Path], progress: Progress, 
     """See Trajectory.film()."""
     options = options_of(lib.fst_default_camera_options())
     kept = set_options(options, given, "film")
-    table, arrays = samples._table()
+    table, arrays = samples._rows()
     facts = ffi.new("fst_camera_facts *")
     truth_path = ffi.NULL if truth is None else path_bytes(truth)
     with Watch(progress, title="film") as watch:

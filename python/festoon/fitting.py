@@ -12,6 +12,7 @@ from ._native import Watch, call, ffi, lent, lib, options_of, path_bytes, string
 from ._pickled import Told, image_of, same, struct_of
 from ._progress import Progress
 from ._quantities import quantity
+from ._tabled import Column, Table, Tabled, about, own_units
 from .bead import Bead, key_of, known_key
 from .measuring import Measurement, Path, Track, _points_measured, _seconds, read_track
 
@@ -38,7 +39,7 @@ class FitParameter:
         return f"{self.key} = {self.value:.6g} +- {self.error:.2g}{unit}"
 
 
-class Fit(Told):
+class Fit(Tabled, Told):
     """Parameters that follow from measured points, and how well they are known."""
 
     def __init__(self, fit: Any, points: Any, begun: Bead) -> None:
@@ -65,6 +66,17 @@ class Fit(Told):
             if parameter.key == key_of(keyword):
                 return parameter
         raise KeyError(keyword)
+
+    def _table(self, units: Optional[str]) -> Table:
+        """A row a parameter.  Their units differ, and are a column."""
+        own_units(units, "Fit")
+        rows = {name: [getattr(one, name) for one in self.parameters] for name in ("value", "error", "bootstrap_error", "unit")}
+        rows["low"], rows["high"] = ([one.interval[i] for one in self.parameters] for i in (0, 1))
+        columns = {name: Column(("parameter",), np.array(values)) for name, values in rows.items()}
+        columns["correlation"] = Column(("parameter", "with"), self.correlation, "1")
+        keys = np.array([one.key for one in self.parameters])
+        coords = {"parameter": Column(("parameter",), keys), "with": Column(("with",), keys)}
+        return Table(("parameter",), coords, columns, about(self.bead.scene(), chi2=self.chi2, dof=self.dof))
 
     def to_dict(self) -> Dict[str, Any]:
         """What `festoon fit --json` prints.

@@ -13,6 +13,7 @@ from ._native import Watch, call, dtype_of, ffi, lib, options_of, owned_array, p
 from ._pickled import Told, image_of, struct_of
 from ._progress import Progress
 from ._quantities import quantity
+from ._tabled import Column, Table, Tabled, about
 from ._tables import MEASURED, MeasuredNumbers
 from .bead import Bead
 
@@ -44,7 +45,17 @@ def _track_again(
     return made
 
 
-class Track:
+def length_in(units: Optional[str], own: str) -> Tuple[float, str]:
+    """The factor from a track's unit of length, and the name of that to which it leads."""
+    if units is None:
+        return 1.0, own
+    if units not in ("lab", "si"):
+        raise BadInput("units", f'unknown units "{units}" of a track; there are lab and si')
+    factor = quantity(f"1 {own}", lib.FST_UNIT_LENGTH, "units")
+    return (1e3 * factor, "mm") if units == "lab" else (factor, "m")
+
+
+class Track(Tabled):
     """Where a filmed bead was, frame by frame; its arrays lie over the library's memory.
 
     Parameters
@@ -133,6 +144,19 @@ class Track:
 
     def __len__(self) -> int:
         return int(self._track.rows)
+
+    def _table(self, units: Optional[str]) -> Table:
+        factor, length = length_in(units, self.length_unit)
+        known = {"t": (1.0, "s"), "x": (factor, length), "y": (factor, length)}
+        made = {name: Column(("frame",), getattr(self, name) * known.get(name, (1, ""))[0], known.get(name, (1, ""))[1])
+                for name in COLUMNS if name != "frame"}
+        turning = {"n": "1", "n_error": "rad", "w": "rad/s", "w_error": "rad/s", "slip": length, "slip_error": length}
+        for name, unit in turning.items() if self.turning is not None else ():
+            values = self.turning[name] * (factor if name.startswith("slip") else 1.0)
+            dims = ("frame", "axis" if values.shape[1] == 3 else "side") if values.ndim == 2 else ("frame",)
+            made[name] = Column(dims, values, f"{unit}/s" if name.startswith("slip") else unit)
+        frame = Column(("frame",), self.frame, "", "number of the frame")
+        return Table(("frame",), {"frame": frame}, made, about(fps=self.fps, scale_error=self.scale_error))
 
     def _columns(self) -> Dict[str, Any]:
         names = [*COLUMNS, "turning"] if self._track.turning else COLUMNS
@@ -250,7 +274,7 @@ def read_track(
     return Track._of(track, take_text(understood[0]) if understood[0] else "")
 
 
-class Measurement(Told, MeasuredNumbers):
+class Measurement(Tabled, Told, MeasuredNumbers):
     """What was measured of a track; lengths in `length_unit`, NaN where a number is unknown."""
 
     def __init__(self, track: Track, found: Any) -> None:
@@ -264,6 +288,15 @@ class Measurement(Told, MeasuredNumbers):
 
     def _number(self, name: str) -> float:
         return float(getattr(self._found, name))
+
+    def _table(self, units: Optional[str]) -> Table:
+        """One row."""
+        factor, length = length_in(units, self.length_unit)
+        made = {"motion": Column((), self.motion), "frames": Column((), self.frames), "lost": Column((), self.lost)}
+        for name, (unit, doc) in MEASURED.items():
+            times, shown = (factor, length) if unit == "length" else (1.0, unit)
+            made[name] = Column((), self._number(name) * times, shown, doc)
+        return Table((), {}, made, about(warnings="; ".join(self.warnings)))
 
     def _facts(self) -> Any:
         return [self.to_dict(), self.centre, self.track]

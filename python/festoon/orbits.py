@@ -10,6 +10,7 @@ from ._errors import BadInput
 from ._native import Watch, ffi, lent, lib, state_of, take_text, text_of
 from ._pickled import Told, image_of, struct_of
 from ._progress import Progress
+from ._tabled import NUMBERS, OF_PLATE, Column, Shown, Table, about, numbers_of, scaled_columns, scales_of
 from .bead import Bead
 from .runs import SYMMETRIES, Run
 
@@ -272,7 +273,7 @@ class RollingLock(_Single):
         return f"RollingLock: r {self.r:.6g}, Phi {self.phi_deg:.6g} deg, {self.end}"
 
 
-class LockedStates(Told, Sequence[Locked]):
+class LockedStates(Shown, Told, Sequence[Locked]):
     """Every locked state at one drive, stable ones first."""
 
     def __init__(self, bead: Bead, states: Any) -> None:
@@ -299,6 +300,15 @@ class LockedStates(Told, Sequence[Locked]):
         if not 0 <= place < len(self):
             raise IndexError(index)
         return Locked(self._list.states[place], self._list)
+
+    def _table(self, units: Optional[str]) -> Table:
+        names = ("r", "phi_deg", "stable", "slip", "friction_power", "eigenvalues")
+        values = {name: np.array([getattr(state, name) for state in self]) for name in names}
+        values.update(numbers_of(np.array([state.state for state in self]).reshape(len(self), len(OF_PLATE)), OF_PLATE))
+        values["eigenvalues"] = values["eigenvalues"].reshape(len(self), lib.FST_EIGENVALUE_COUNT)
+        known = {**NUMBERS, "r": "l", "phi_deg": "deg", "slip": "l gamma", "friction_power": "l^2 gamma^3", "eigenvalues": "gamma"}
+        columns = scaled_columns(("state",), values, known, scales_of(self.bead._params, units))
+        return Table(("state",), {"state": Column(("state",), np.arange(len(self)))}, columns, about(self.bead.scene()))
 
     @property
     def stable(self) -> List[Locked]:
@@ -342,7 +352,7 @@ def locked(bead: Bead, progress: Progress) -> LockedStates:
 # ---------------------------------------------------------------------------------------- Lyapunov exponents
 
 
-class Lyapunov(Told):
+class Lyapunov(Shown, Told):
     """The spectrum of Lyapunov exponents, falling, in gamma."""
 
     def __init__(self, bead: Bead, found: Any) -> None:
@@ -361,6 +371,17 @@ class Lyapunov(Told):
         #: Running means of the exponents at the times `trace_time`.
         self.trace_time = state_of(list(found.trace_time)[:count])
         self.trace = lent(np.array([list(row) for row in found.trace][:count]))
+
+    def _table(self, units: Optional[str]) -> Table:
+        scales = scales_of(self.bead._params, units)
+        values = {"exponents": self.exponents, "errors": self.errors}
+        columns = scaled_columns(("exponent",), values, {"exponents": "gamma", "errors": "gamma"}, scales)
+        time = scaled_columns(("trace_time",), {"trace_time": self.trace_time}, {"trace_time": "1/gamma"}, scales)["trace_time"]
+        factor, unit = scales.factor("trace", "gamma")
+        trace = self.trace.reshape(len(self.trace_time), len(self.exponents)).T * factor
+        columns["trace"] = Column(("exponent", "trace_time"), trace, unit, "running means of the exponents")
+        coords = {"exponent": Column(("exponent",), np.arange(len(self.exponents))), "trace_time": time}
+        return Table(("exponent",), coords, columns, about(self.bead.scene()))
 
     def to_dict(self) -> Dict[str, Any]:
         """What `festoon lyapunov --json` prints.

@@ -10,6 +10,7 @@ from ._native import Watch, call, dtype_of, ffi, freed_array, lent, lib, options
 from ._pickled import Told, image_of, struct_of
 from ._progress import Progress
 from ._quantities import Scales, quantity
+from ._tabled import Column, Table, Tabled, about, scaled_columns, scales_of
 from ._tables import RESULTS, RunNumbers
 from .bead import Bead
 
@@ -59,7 +60,7 @@ def _listing(numbers: RunNumbers, units: Dict[str, str]) -> str:
     return "\n".join(lines)
 
 
-class Run(Told, RunNumbers):
+class Run(Tabled, Told, RunNumbers):
     """The result of a run.  Numbers are scaled (l, 1/gamma, B0); `si` and `lab` have them in other units."""
 
     #: The bead that ran.
@@ -159,6 +160,15 @@ class Run(Told, RunNumbers):
             Where the units are unknown.
         """
         return RunIn(self, units)
+
+    def _table(self, units: Optional[str]) -> Table:
+        """One row."""
+        values = {name: self._number(name) for name in RESULTS}
+        known = {name: unit for name, (unit, _) in RESULTS.items()}
+        docs = {name: doc for name, (_, doc) in RESULTS.items()}
+        columns = scaled_columns((), values, known, scales_of(self.bead._params, units), docs)
+        words = {name: Column((), getattr(self, name) or "") for name in ("regime", "symmetry")}
+        return Table((), {}, {**words, **columns}, about(self.bead.scene()))
 
     def to_dict(self) -> Dict[str, Any]:
         """What `festoon run --json` prints.

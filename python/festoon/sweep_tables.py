@@ -1,13 +1,15 @@
 """Sweeps of several beads and of worlds: columns over a grid."""
 
-from typing import Any, Dict, List, Tuple
+from typing import Any, Dict, List, Optional, Tuple
 
 import numpy as np
 
 from ._errors import BadInput
 from ._native import lent, lib, text_of
 from ._pickled import Told
-from .bead import keyword_of, row_of
+from ._quantities import Scales
+from ._tabled import Column, Table, Tabled, about, key_unit, scaled_columns
+from .bead import Bead, keyword_of, row_of
 
 
 class Axis:
@@ -31,7 +33,33 @@ class Axis:
         return lent(np.asarray(self.values[(points // self.stride) % len(self.values)]))
 
 
-class SweepTable(Told):
+def sizes_of(axes: List[Axis]) -> Dict[str, int]:
+    """The dimensions of a grid and their lengths; random axes share one."""
+    return {"draw" if axis.random else axis.keyword: len(axis.values) for axis in axes}
+
+
+def scales_over(axes: List[Axis], base: Any, units: Optional[str]) -> Scales:
+    """The scales of a grid's runs, whose unit must not be varied itself."""
+    for axis in axes if units not in (None, "scaled") else ():
+        if axis.key in ("magnet.half_length", "friction.gamma", "bead.mass"):
+            raise BadInput("sweep", f"{axis.key} is varied, and with it the unit of the scaled numbers")
+    return Scales(base, units or "scaled")
+
+
+def coords_of(axes: List[Axis], dims: Tuple[str, ...], points: Any) -> Dict[str, Column]:
+    """The varied parameters at points of a grid, in SI or scaled, as they are given."""
+    made = {}
+    for axis in axes:
+        kind, unit, doc = row_of(axis.key)
+        along, at = dims, points
+        if axis.keyword in dims:
+            place = dims.index(axis.keyword)
+            along, at = (axis.keyword,), np.moveaxis(points, place, 0).reshape(points.shape[place], -1)[:, 0]
+        made[axis.keyword] = Column(along, axis.at(at), "" if kind == "str" else unit, doc, axis.key)
+    return made
+
+
+class SweepTable(Tabled, Told):
     """What a sweep of several beads, of one in a world or of places of levitation tells: columns over a grid.
 
     A column is an attribute and an item, an array of the grid's shape: numbers, NaN where undefined, or words.
@@ -39,13 +67,15 @@ class SweepTable(Told):
 
     def __init__(self, grid: Any, rows: List[Dict[str, Any]]) -> None:
         self.axes = [Axis(grid, i) for i in range(lib.fst_grid_axis_count(grid))]
-        self.dims = tuple(axis.keyword for axis in self.axes)
+        self._sizes = sizes_of(self.axes)
+        self.dims = tuple(self._sizes)
+        self._base = Bead._unmade(lib.fst_grid_base(grid)[0])
         self._rows = rows
 
     @property
     def shape(self) -> Tuple[int, ...]:
         """The length of each dimension."""
-        return tuple(len(axis.values) for axis in self.axes)
+        return tuple(self._sizes.values())
 
     @property
     def columns(self) -> List[str]:
@@ -87,22 +117,14 @@ class SweepTable(Told):
         """
         return {name: [row[name] for row in self._rows] for name in self.columns}
 
-    def to_pandas(self) -> Any:
-        """A data frame, a row a point.
-
-        Returns
-        -------
-        pandas.DataFrame
-            The columns as `festoon export --json` writes them.
-
-        Raises
-        ------
-        ImportError
-            Where pandas is missing.
-        """
-        import pandas
-
-        return pandas.DataFrame(self._rows)
+    def _table(self, units: Optional[str]) -> Table:
+        """Parameters are in SI or scaled, as they are given."""
+        coords = coords_of(self.axes, self.dims, np.arange(int(np.prod(self.shape))).reshape(self.shape))
+        values = {name: self[name] for name in self.columns if name not in (*coords, *(axis.key for axis in self.axes))}
+        known = {name: key_unit(name) for name, column in values.items() if column.dtype.kind == "f"}
+        known.update({name: "mm" for name in values if name.endswith("_mm")}, **{name: "deg" for name in values if name.endswith("_deg")})
+        scales = scales_over(self.axes, self._base._params, units)
+        return Table(self.dims, coords, scaled_columns(self.dims, values, known, scales, {}), about(self._base.scene()))
 
     def __repr__(self) -> str:
         return f"SweepTable: {' x '.join(map(str, self.shape))} points over {', '.join(self.dims)}; columns {', '.join(self.columns)}"

@@ -53,6 +53,7 @@ def _into_file(
     portable: bool,
     refining: Tuple[int, Optional[str], float],
     levitation: bool,
+    shard: Tuple[int, int],
     progress: Progress,
 ) -> Any:
     options = options_of(lib.fst_default_sweep_options())
@@ -65,6 +66,7 @@ def _into_file(
     key = ffi.new("char[]", by.encode()) if by else ffi.NULL
     options.refine, options.refine_by, options.refine_step = levels, key, step
     options.levitation = levitation
+    options.shard, options.shards = shard
     if portable:
         options.arithmetic = lib.FST_ARITHMETIC_PORTABLE
     counts = ffi.new("fst_sweep_counts *")
@@ -102,6 +104,7 @@ def sweep(
     refine_by: Optional[str] = None,
     refine_step: float = 0.0,
     levitation: bool = False,
+    shard: Tuple[int, int] = (0, 0),
     progress: Progress = None,
     **axes: Any,
 ) -> Sweep:
@@ -135,6 +138,8 @@ def sweep(
         which may also stand behind the key: "mean_r:0.05".
     levitation
         Find the places where a bead without a plate floats, and run nothing.
+    shard
+        (I, N): compute the I-th of N parts alone, I from 1, into a `file` of its own; `festoon.merge` joins them.
     progress
         True: a bar; or a function of (fraction, what).
 
@@ -170,16 +175,18 @@ def sweep(
     count = threads or len(os.sched_getaffinity(0))
     grid = grid_of(bead, texts, seed)
     refining = _refining(refine, refine_by, refine_step)
+    if shard != (0, 0) and file is None:
+        raise BadInput("shard", "a part of a sweep is for merging: give it a file")
     if file is not None:
         return _into_file(  # type: ignore[no-any-return]
-            bead, texts, file, seed, carry, count, lanes, portable, refining, levitation, progress
+            bead, texts, file, seed, carry, count, lanes, portable, refining, levitation, shard, progress
         )
     in_three_dimensions = levitation or lib.fst_grid_row_kind(grid) != lib.FST_ROWS_OF_RUNS
     if in_three_dimensions or carry is not None or refining != (0, None, 0.0):
         with tempfile.TemporaryDirectory(prefix="festoon-") as folder:
             path = os.path.join(folder, "sweep.db")
             return _into_file(  # type: ignore[no-any-return]
-                bead, texts, path, seed, carry, count, lanes, portable, refining, levitation, progress
+                bead, texts, path, seed, carry, count, lanes, portable, refining, levitation, shard, progress
             )
     made = _in_memory(grid, bead._map, count, lanes, portable, progress)
     made._seed = seed

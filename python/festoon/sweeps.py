@@ -10,11 +10,11 @@ import numpy as np
 
 from ._errors import BadInput, FestoonError, Interrupted, OutOfMemory
 from ._native import Watch, call, dtype_of, exception_of, ffi, lent, lib, owned_array, path_bytes, strings, text_of
-from ._quantities import Scales
+from ._tabled import Column, Table, Tabled, about, scaled_columns
 from ._tables import RESULTS, SweepNumbers
-from .bead import Bead, key_of, row_of
+from .bead import Bead, key_of
 from .runs import REGIMES, SYMMETRIES, Run
-from .sweep_tables import Axis, SweepTable
+from .sweep_tables import Axis, SweepTable, coords_of, scales_over, sizes_of
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -26,10 +26,7 @@ class SweepIn(SweepNumbers):
 
     def __init__(self, sweep: "Sweep", units: str) -> None:
         self._sweep, self._units = sweep, units
-        for axis in sweep.axes:
-            if axis.key in ("magnet.half_length", "friction.gamma", "bead.mass"):
-                raise BadInput("sweep", f"{axis.key} is varied, and with it the unit of the scaled numbers")
-        self._scales = Scales(lib.fst_grid_base(sweep._grid), units)
+        self._scales = scales_over(sweep.axes, lib.fst_grid_base(sweep._grid), units)
 
     def _array(self, name: str) -> Any:
         return self._sweep._array(name) * self._scales.factor(name, RESULTS[name][0])[0]
@@ -48,7 +45,7 @@ class SweepIn(SweepNumbers):
         return hash((self._sweep, self._units))
 
 
-class Sweep(SweepNumbers):
+class Sweep(Tabled, SweepNumbers):
     """Results over a grid.  Every number of a run is an array of the grid's shape, NaN where a run failed.
 
     An index gives a run, a slice or a mask a smaller sweep: ``s[0, 1]``, ``s[:, 1]``, ``s[s.failed]``.
@@ -61,17 +58,10 @@ class Sweep(SweepNumbers):
         #: Of random axes; None: not known, for it was read from a file.
         self._seed: Optional[int] = None
         self.axes = [Axis(grid, i) for i in range(lib.fst_grid_axis_count(grid))]
-        #: The name and the length of each dimension.
-        self.dims: Tuple[str, ...] = ()
-        shape: List[int] = []
-        drawn = False
-        for axis in self.axes:
-            if axis.random and drawn:
-                continue
-            drawn = drawn or axis.random
-            self.dims += ("draw" if axis.random else axis.keyword,)
-            shape.append(len(axis.values))
-        self._points = np.arange(len(rows)).reshape(shape)
+        sizes = sizes_of(self.axes)
+        #: The name of each dimension.
+        self.dims: Tuple[str, ...] = tuple(sizes)
+        self._points = np.arange(len(rows)).reshape(tuple(sizes.values()))
 
     # ------------------------------------------------------------------ its points
 
@@ -317,89 +307,19 @@ class Sweep(SweepNumbers):
 
     # ------------------------------------------------------------------ for other libraries
 
-    def _units(self, units: str) -> Any:
-        """Factor and unit of each number in these units."""
-        if units == "scaled":
-            return {name: (1.0, unit) for name, (unit, _) in RESULTS.items()}
-        scales = SweepIn(self, units)._scales
-        return {name: scales.factor(name, unit) for name, (unit, _) in RESULTS.items()}
-
-    def _about(self) -> Dict[str, str]:
-        """What a table says of itself: the bead's scene, the axes, the version that computed it."""
+    def _table(self, units: Optional[str]) -> Table:
+        """Parameters are in SI or scaled, as they are given; results cannot leave where the unit of the scaled ones is varied."""
+        shown = scales_over(self.axes, lib.fst_grid_base(self._grid), units)
+        coords = coords_of(self.axes, self.dims, self._points)
+        # omega is a parameter and a result: the same number, and one column.
+        values = {name: self._array(name) for name in RESULTS if name not in coords}
+        known, docs = ({name: row[i] for name, row in RESULTS.items()} for i in (0, 1))
+        columns = {name: Column(self.dims, getattr(self, name)) for name in ("regime", "symmetry")}
+        columns.update(scaled_columns(self.dims, values, known, shown, docs))
+        errors = ["" if error is None else str(error) for error in self.errors.ravel()]
+        columns["error"] = Column(self.dims, np.array(errors, object).reshape(self.shape))
         scene = Bead._unmade(lib.fst_grid_base(self._grid)[0]).scene()
-        return {"scene": scene, "axes": "; ".join(self._axis_texts()), "version": text_of(lib.fst_version())}
-
-    def to_pandas(self, units: str = "scaled") -> Any:
-        """A DataFrame with a row for each point.
-
-        Parameters
-        ----------
-        units
-            "scaled", "lab" or "si", of the results; parameters are in SI or scaled, as they are given.
-
-        Returns
-        -------
-        pandas.DataFrame
-            Its `attrs` have units, scene, axes and version.
-
-        Raises
-        ------
-        BadInput
-            Where the unit of the scaled numbers is varied itself.
-        """
-        import pandas
-
-        shown = self._units(units)
-        columns: Dict[str, Any] = {axis.keyword: axis.at(self._points.ravel()) for axis in self.axes}
-        columns["regime"] = self.regime.ravel()
-        columns["symmetry"] = self.symmetry.ravel()
-        for name in RESULTS:
-            # omega is a parameter and a result: the same number, and one column.
-            columns.setdefault(name, shown[name][0] * np.ascontiguousarray(self._array(name)).ravel())
-        columns["error"] = ["" if error is None else str(error) for error in self.errors.ravel()]
-        frame = pandas.DataFrame(columns)
-        given = {axis.keyword: row_of(axis.key)[1] for axis in self.axes if row_of(axis.key)[0] != "str"}
-        frame.attrs = {**self._about(), "units": {**{name: unit for name, (_, unit) in shown.items()}, **given}}
-        return frame
-
-    def to_xarray(self, units: str = "scaled") -> Any:
-        """A Dataset with units and docs in `attrs`; it has the dimensions of the sweep.
-
-        Parameters
-        ----------
-        units
-            "scaled", "lab" or "si", of the results; parameters are in SI or scaled, as they are given.
-
-        Returns
-        -------
-        xarray.Dataset
-            Each variable has its unit in `attrs`, the data set scene, axes and version.
-
-        Raises
-        ------
-        BadInput
-            Where the unit of the scaled numbers is varied itself.
-        """
-        import xarray
-
-        shown = self._units(units)
-        coords: Dict[str, Any] = {}
-        for axis in self.axes:
-            kind, unit, doc = row_of(axis.key)
-            attrs = {"long_name": axis.key, "description": doc, **({} if kind == "str" else {"units": unit})}
-            if axis.keyword in self.dims:
-                along = self.dims.index(axis.keyword)
-                points = np.moveaxis(self._points, along, 0).reshape(self.shape[along], -1)[:, 0]
-                coords[axis.keyword] = (axis.keyword, axis.at(points), attrs)
-            else:
-                coords[axis.keyword] = (self.dims, axis.at(self._points), attrs)
-        data: Dict[str, Any] = {"regime": (self.dims, self.regime), "symmetry": (self.dims, self.symmetry)}
-        for name, (_, doc) in RESULTS.items():
-            if name not in coords:
-                factor, unit = shown[name]
-                attrs = {"units": unit, "long_name": name, "description": doc}
-                data[name] = (self.dims, factor * self._array(name), attrs)
-        return xarray.Dataset(data, coords, self._about())
+        return Table(self.dims, coords, columns, about(scene, axes="; ".join(self._axis_texts())))
 
     def plot(self, y: Any = None, **options: Any) -> Any:
         """Draw curves or a map with matplotlib; returns its Axes: see `festoon.plots.sweep`.

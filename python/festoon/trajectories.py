@@ -9,6 +9,7 @@ import numpy as np
 from ._native import Watch, ffi, lent, lib, path_bytes
 from ._progress import Progress
 from ._quantities import Scales
+from ._tabled import DOCS, Table, Tabled, about, scaled_columns, scales_of
 from ._tables import COLUMNS, Columns
 from .bead import Bead
 from .films import Filmed
@@ -41,7 +42,7 @@ class TrajectoryIn(Columns):
         return self._scales.column(PLACES[name])[1]
 
 
-class Trajectory(Filmed, Columns, np.ndarray):  # type: ignore[type-arg]
+class Trajectory(Filmed, Tabled, Columns, np.ndarray):  # type: ignore[type-arg]
     """Samples as an array of numpy; columns are attributes and fields, scaled (l, 1/gamma, B0).
 
     >>> tr = Bead().run(periods=20, trajectory=True).trajectory
@@ -110,7 +111,13 @@ class Trajectory(Filmed, Columns, np.ndarray):  # type: ignore[type-arg]
         """The columns in the units of a laboratory: mm, s, mm/s, mT."""
         return TrajectoryIn(self, "lab")
 
-    def _table(self) -> Tuple[Any, Any]:
+    def _table(self, units: Optional[str]) -> Table:
+        values = {name: self._column(name).ravel() for name in COLUMNS}
+        units_of_columns = {name: unit for name, (unit, _) in COLUMNS.items()}
+        columns = scaled_columns(("t",), values, units_of_columns, scales_of(self.bead._params, units), DOCS)
+        return Table(("t",), {"t": columns.pop("t")}, columns, about(self.bead.scene()))
+
+    def _rows(self) -> Tuple[Any, Any]:
         """The library's form of a trajectory, and what must stay alive with it."""
         columns = [np.ascontiguousarray(self._column(name)) for name in COLUMNS]
         pointers = ffi.new("double *[]", [ffi.cast("double *", ffi.from_buffer(c)) for c in columns])
