@@ -28,15 +28,24 @@ FST_API fst_status fst_field_map_new(const fst_field_samples *samples, const fst
 FST_API fst_field_map *fst_field_map_share(const fst_field_map *map);
 FST_API void fst_field_map_free(fst_field_map *map);
 
+/* FST_NOISE_AGREES, ...: whether the noise told of a map agrees with what is left of its samples. */
+typedef enum { FST_NOISE_VERDICTS(FST_ROW_ENUM) FST_NOISE_VERDICT_COUNT } fst_noise_verdict;
+FST_API const char *fst_noise_verdict_name(fst_noise_verdict verdict);
+
 /* How equivalent charges fit the samples of a map (fst_field_map_smooth()). */
 typedef struct fst_map_fit {
     int charges;  /* how many; 0: the map's splines pass through its samples */
     double depth; /* m: of the uppermost charges below the samples */
     double rms;   /* T: of what is left of a component of a sample */
-    double free;  /* degrees of freedom that are left */
+    double
+        free; /* degrees of freedom that are left: the numbers of the samples less the trace of the hat matrix */
     double noise; /* T: of a component, as the fit estimates it, or as told; errors are those of this noise */
     double rough; /* T: the noise by sixth differences of neighbours alone, which see a smooth field hardly */
     double chi2;  /* chi^2 per degree of freedom against the noise told, or against `rough` where none was */
+    double told;  /* T: the noise told; NAN: none was */
+    double bound[2]; /* at least 95 % of chi2 are between these if the noise told is the map's; NAN: none was */
+    fst_noise_verdict verdict; /* on the noise told */
+    double seen[3];            /* T: the noise that what is left shows, and between which it is with 95 % */
     double turned[3], turned_error[3]; /* rad: rotation vector of the probe's axes; 0 where it was not free */
     double offset[3], offset_error[3]; /* T: what the probe's axes show in no field; 0 where it was not free */
 } fst_map_fit;
@@ -66,6 +75,17 @@ typedef struct fst_smoothing {
  * that is too near to the charges, a noise that is none, a probe whose rotation the field does not tell. */
 FST_API fst_status fst_field_map_smooth(const fst_field_map *measured, const fst_smoothing *how,
                                         const fst_progress *progress, fst_field_map **smooth, fst_error *error);
+
+/* What is to be said of a fit, for people: the verdict on the noise with its numbers, or that more is left than noise.
+ * It is empty where there is nothing to say, and 256 bytes are enough. */
+FST_API void fst_map_fit_sentence(const fst_map_fit *fit, char *sentence, size_t size);
+
+/* A map of a field drawn from all that the samples and the fit allow, each as often as it is likely: the standard
+ * deviations of many are the errors of fst_field_error(), which a drawn map has none of.  Runs over several tell what
+ * the map's noise does to a motion.  A seed gives the same map again.  FST_BAD_INPUT: `smooth` is none of
+ * fst_field_map_smooth(). */
+FST_API fst_status fst_field_map_draw(const fst_field_map *smooth, uint64_t seed, const fst_progress *progress,
+                                      fst_field_map **drawn, fst_error *error);
 
 /* The standard errors of what fst_field() and fst_field_pull() tell of a model over a smoothed map, in the same units;
  * the load has the error of force[2].  That of the force is linear in the field's: too large where |B| is not far above

@@ -109,7 +109,7 @@ def trajectory(
         return _column_over(tr, colour, over, units, begin, end, ax)
     from matplotlib.collections import LineCollection
 
-    (options, _kept), (table, _columns) = _options("PATH", colour, units, begin, end), tr._table()
+    (options, _kept), (table, _columns) = _options("PATH", colour, units, begin, end), tr._rows()
     options.from_magnet, options.arrows = frame == "magnet", arrows
     picture = ffi.gc(ffi.new("fst_path_picture *"), lib.fst_path_picture_free)
     call(lib.fst_path_picture_of, table, options, picture)
@@ -142,7 +142,7 @@ def trajectory(
 def _column_over(
     tr: Any, name: str, over: str, units: str, begin: Optional[float], end: Optional[float], ax: Any
 ) -> Any:
-    (options, _kept), (table, _columns) = _options("TIME", name, units, begin, end), tr._table()
+    (options, _kept), (table, _columns) = _options("TIME", name, units, begin, end), tr._rows()
     part = ffi.new("fst_figure_part *")
     call(lib.fst_figure_part_of, table, options, part)
     tr = tr[part.first : part.last]

@@ -7,7 +7,7 @@ import numpy as np
 
 from . import fields
 from ._errors import BadInput, Interrupted
-from ._native import Watch, call, ffi, lent, lib, path_bytes
+from ._native import Watch, call, ffi, lent, lib, path_bytes, text_of
 from ._progress import Progress
 from ._quantities import quantity
 from ._tabled import Column, Table, Tabled, about
@@ -28,8 +28,11 @@ class SmoothedMap(Tabled):
     bead: Bead
     height: float
 
-    def __init__(self, bead: Bead, how: Tuple[float, bool, float], field_map: Any) -> None:
-        self.bead, self._how, self._map = bead, how, field_map
+    #: Of a drawn field, which has no errors; None: the likeliest field.
+    seed: Optional[int]
+
+    def __init__(self, bead: Bead, how: Tuple[float, bool, float], field_map: Any, fit_of: Any = None, seed: Optional[int] = None) -> None:
+        self.bead, self._how, self._map, self.seed = bead, how, field_map, seed
         self.height = how[2]
         params = ffi.new("fst_params *", bead._params[0])
         params.magnet_map = field_map
@@ -38,7 +41,7 @@ class SmoothedMap(Tabled):
         self._flat_model = self._model = ffi.gc(model[0], lib.fst_model_free)
         groups = lib.fst_model_groups(self._model)
         self._length, self._tesla = float(groups.length_unit), float(groups.field_unit)
-        self._facts = lib.fst_field_map_describe(field_map)  # `fit` lies in it
+        self._facts = lib.fst_field_map_describe(fit_of or field_map)  # `fit` lies in it
         self._fit = self._facts.fit
 
     @property
@@ -75,6 +78,28 @@ class SmoothedMap(Tabled):
     def chi2(self) -> float:
         """Per degree of freedom [1], against the noise told, or against `rough_noise` where none was."""
         return float(self._fit.chi2)
+
+    @property
+    def chi2_bound(self) -> Any:
+        """Between which at least 95 % of `chi2` are, if the noise told is the map's; NaN where none was told."""
+        return self._vector("bound")
+
+    @property
+    def verdict(self) -> str:
+        """On the noise told: not told, agrees, too small, too large; or misfit: more is left than noise."""
+        return text_of(lib.fst_noise_verdict_name(self._fit.verdict))
+
+    @property
+    def sentence(self) -> str:
+        """The same in a line, with numbers; "" where there is nothing to say."""
+        text = ffi.new("char[]", 256)
+        lib.fst_map_fit_sentence(ffi.addressof(self._facts, "fit"), text, 256)
+        return text_of(text)
+
+    @property
+    def noise_seen(self) -> Any:
+        """The noise that what is left shows, and between which two numbers it is with 95 % [T]."""
+        return self._vector("seen")
 
     def _vector(self, name: str) -> Any:
         return lent(np.array(list(getattr(self._fit, name))))
@@ -162,6 +187,35 @@ class SmoothedMap(Tabled):
         made = made.reshape(*shape, 15)
         return made[..., :3], made[..., 3:12].reshape(*shape, 3, 3), made[..., 12:]
 
+    def draw(self, seed: int, *, progress: Progress = None) -> "SmoothedMap":
+        """A field drawn from all that the noise allows, each as often as it is likely.
+
+        Runs over several, each saved as a map, show what the map's noise does to a motion.
+
+        Parameters
+        ----------
+        seed
+            Gives the same field again; the program's `--draws N` has the seeds 1 to N.
+        progress
+            True: a bar; or a function of (fraction, what).
+
+        Returns
+        -------
+        SmoothedMap
+            The drawn field, whose errors are NaN.
+
+        Raises
+        ------
+        BadInput
+            Of a drawn field, from which none is drawn.
+        Interrupted
+            After Ctrl-C.
+        """
+        drawn = ffi.new("fst_field_map **")
+        with Watch(progress, title="draw") as watch:
+            watch.call(lib.fst_field_map_draw, self._map, seed, watch.told, drawn)
+        return SmoothedMap(self.bead, self._how, ffi.gc(drawn[0], lib.fst_field_map_free), self._map, seed)
+
     def save(self, path: Path, radius: Any = None, spacing: Any = "1 mm", *, progress: Progress = None) -> None:
         """Write the field as a map, which `magnet__file` reads, with columns of errors.
 
@@ -210,21 +264,27 @@ class SmoothedMap(Tabled):
         return Table(("y", "x"), coords, columns, about(self.bead.scene(), height=length * self.height))
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, SmoothedMap) and self.bead == other.bead and repr(self._how) == repr(other._how)
+        return isinstance(other, SmoothedMap) and self.bead == other.bead and self._identity() == other._identity()
+
+    def _identity(self) -> str:
+        return repr((self._how, self.seed))
 
     def __hash__(self) -> int:
-        return hash((self.bead, repr(self._how)))
+        return hash((self.bead, self._identity()))
 
     def __reduce__(self) -> Any:
-        return _again, (self.bead, self._how)  # the fit is done again, and has the same bits
+        return _again, (self.bead, self._how, self.seed)  # the fit is done again, and has the same bits
 
     def __repr__(self) -> str:
         text = f"SmoothedMap: {self.charges} charges from {1e3 * self.depth:.4g} mm below the map on, noise {1e3 * self.noise:.4g} mT"
-        return f"{text}, chi^2 of {self.degrees_of_freedom:.0f} degrees of freedom: {self.chi2:.4g} each"
+        text += f", chi^2 of {self.degrees_of_freedom:.0f} degrees of freedom: {self.chi2:.4g} each"
+        drawn = "" if self.seed is None else f"\n  a field drawn with the seed {self.seed}"
+        return text + (f"\n  {self.sentence}" if self.sentence else "") + drawn
 
 
-def _again(bead: Bead, how: Tuple[float, bool, float]) -> SmoothedMap:
-    return _fit(bead, how, None)
+def _again(bead: Bead, how: Tuple[float, bool, float], seed: Optional[int]) -> SmoothedMap:
+    made = _fit(bead, how, None)
+    return made if seed is None else made.draw(seed)
 
 
 def _fit(bead: Bead, given: Tuple[float, bool, float], progress: Progress) -> SmoothedMap:

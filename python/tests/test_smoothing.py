@@ -1,6 +1,7 @@
 """Noisy maps, smoothed: the program's numbers, and maps that beads can run over."""
 
 import pickle
+import subprocess
 
 import numpy as np
 import pytest
@@ -38,10 +39,39 @@ def test_smooth(program, noisy, tmp_path):
     assert pickle.loads(pickle.dumps(made)) == made != noisy.smooth(height="20 mm")
 
 
+def test_a_noise_told_wrong(noisy):
+    for told, verdict in (("0.01 mT", "too small"), ("0.04 mT", "too large")):
+        made = noisy.smooth(noise=told)
+        assert made.verdict == verdict and "it is probably" in made.sentence and made.noise_seen[1] < 2e-5 < made.noise_seen[2]
+    assert noisy.smooth().verdict == "not told" and noisy.smooth().sentence == "" and np.isnan(noisy.smooth().chi2_bound).all()
+
+
+def test_drawn_fields(program, noisy, tmp_path):
+    """Many spread as the errors say; the program writes the same; a drawn field has no errors and is drawn no further."""
+    made = noisy.smooth()
+    x, y = [0.3, -0.7], [-0.2, 0.4]
+    B, G = (np.array(parts) for parts in zip(*[made.draw(seed).field(x, y) for seed in range(1, 61)]))
+    for drawn, middle, error in ((B, made.field(x, y)[0], made.errors(x, y)[0]), (G, made.field(x, y)[1], made.errors(x, y)[1])):
+        z = (drawn - middle) / error  # its numbers are neighbours, and alike
+        assert 0.85 < np.sqrt((z**2).mean()) < 1.15 and np.abs(z.mean(axis=0)).max() < 0.6
+    noisy.save(tmp_path / "scene.yaml")
+    words = [program, "field", str(tmp_path / "scene.yaml"), "--smooth", "--spacing", "6mm", "--csv", str(tmp_path / "s.csv"), "--draws", "2"]
+    subprocess.run(words, check=True, capture_output=True)
+    one = made.draw(2)
+    one.save(tmp_path / "2.csv", spacing="6 mm")
+    assert (tmp_path / "2.csv").read_bytes() == (tmp_path / "s-2.csv").read_bytes() != (tmp_path / "s-1.csv").read_bytes()
+    assert np.isnan(one.errors(0, 0)[0]).all() and one.seed == 2 and one != made and "drawn" in repr(one)
+    assert pickle.loads(pickle.dumps(one)) == one and noisy.replace(magnet__file=str(tmp_path / "2.csv"), run__periods=2).run().mean_r > 0
+    with pytest.raises(fs.BadInput, match="smoothed map"):
+        one.draw(1)
+
+
 def test_smooth_with_a_probe(noisy):
     made = noisy.smooth(probe=True, noise="0.02 mT", height="20 mm")
     assert (np.abs(made.turned) < 4 * made.turned_error).all() and (made.offset_error > 0).all() and made.noise >= 2e-5
     assert made.height == 0.02 and made.to_xarray().attrs["height"] == 0.02
+    assert made.verdict == "agrees" and "noise told" in made.sentence and made.sentence in repr(made)
+    assert made.chi2_bound[0] < 1 < made.chi2_bound[1] and made.noise_seen[1] < 2e-5 < made.noise_seen[2]
     told = []
     noisy.smooth(progress=lambda fraction, what: told.append(fraction))
     assert told == sorted(told) and told[-1] > 0.9

@@ -23,6 +23,9 @@ static const option options[] = {
     {"smooth", '\0', NULL,
      "the field of charges fitted to the scene's noisy map (magnet.shape: grid), with errors"},
     {"noise", '\0', "B", "of a component of that map, as in 0.05mT; --smooth estimates it unless given"},
+    {"draws", '\0', "N",
+     "beside FILE.csv of --smooth also write FILE-1.csv to FILE-N.csv, fields drawn from all that the noise "
+     "allows"},
     {"probe", '\0', NULL, "--smooth also fits how the probe's axes are turned, and their offsets"},
     UNITS_OPTION,
     LOOK_OPTIONS,
@@ -271,16 +274,40 @@ static fst_status write_map(const arguments *given, const fst_params *params, do
     return status;
 }
 
+/* --draws: FILE-1.csv and so on beside FILE.csv, each a map over which runs show what the noise does to them. */
+static fst_status write_draws(const arguments *given, fst_params *params, double height, const char *path,
+                              const fst_field_map *smooth, fst_error *error)
+{
+    const size_t length = strlen(path), ending = length > 4 && strcmp(path + length - 4, ".csv") == 0 ? 4 : 0;
+    double draws = 0.0;
+    char name[SHOWN_SIZE];
+    const value_option row = {"draws", VALUE_WHOLE, &draws, 1, 10000};
+    fst_status status = read_values(given, &row, 1, error);
+    for (int i = 1; i <= draws && status == FST_OK; ++i) {
+        fst_field_map *drawn = NULL;
+        (void)snprintf(name, sizeof name, "%.*s-%d.csv", (int)(length - ending), path, i);
+        status = fst_field_map_draw(smooth, (uint64_t)i, NULL, &drawn, error);
+        params->magnet_map = drawn;
+        if (status == FST_OK)
+            status = write_map(given, params, height, name, error);
+        fst_field_map_free(drawn);
+    }
+    params->magnet_map = smooth;
+    return status;
+}
+
 /* How well charges fit a map. */
 static void print_fit(FILE *out, const fst_map_fit *fit)
 {
+    char sentence[256];
+    fst_map_fit_sentence(fit, sentence, sizeof sentence);
     (void)fprintf(
         out,
         "%d charges from %.4g mm below the map on; what is left: %.4g mT rms; noise %.4g mT; chi^2 of %.0f "
-        "degrees of freedom: %.4g each%s\n",
-        fit->charges, 1e3 * fit->depth, 1e3 * fit->rms, 1e3 * fit->noise, fit->free, fit->chi2,
-        fit->chi2 > 1.2 ? "; more is left than noise: a turned probe (--probe), exchanged axes, wrong places?"
-                        : "");
+        "degrees of freedom: %.4g each\n",
+        fit->charges, 1e3 * fit->depth, 1e3 * fit->rms, 1e3 * fit->noise, fit->free, fit->chi2);
+    if (sentence[0])
+        (void)fprintf(out, "%s%s\n", sentence, strstr(sentence, "probe") ? " (--probe fits a turned one)" : "");
     for (int i = 0; i < 3 && fit->turned_error[0] > 0; ++i)
         (void)fprintf(out, "probe, axis %c: turned by %.4f +- %.4f deg, offset %.4g +- %.2g mT\n", "xyz"[i],
                       360.0 / TWO_PI * fit->turned[i], 360.0 / TWO_PI * fit->turned_error[i],
@@ -310,12 +337,10 @@ static fst_status smooth_map(const arguments *given, fst_params *params, double 
     return status;
 }
 
-static fst_status perform(const arguments *given, FILE *out, fst_error *error)
+/* Options that ask for what others must give. */
+static fst_status check_asked(const arguments *given, const char *at, const char *figure, const char *csv,
+                              fst_error *error)
 {
-    fst_params params;
-    fst_field_map *smooth = NULL;
-    const char *at = option_value(given, "at"), *figure = option_value(given, "output");
-    const char *csv = option_value(given, "csv");
     if (!at && !figure && !csv)
         return fail(error, FST_BAD_INPUT, "",
                     "say where with --at X,Y, draw a map with -o FIG.svg, or write one with --csv FILE.csv");
@@ -329,13 +354,27 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
                     "--radius and --spacing are those of a written map: give --csv");
     if (option_value(given, "quantity") && !figure)
         return fail(error, FST_BAD_INPUT, "--quantity", "it is that of a map: give -o FIG.svg");
-    if ((option_value(given, "noise") || option_value(given, "probe")) && !option_value(given, "smooth"))
+    if ((option_value(given, "noise") || option_value(given, "probe") || option_value(given, "draws")) &&
+        !option_value(given, "smooth"))
         return fail(error, FST_BAD_INPUT, "--smooth",
-                    "--noise and --probe are of a fit to a map: give --smooth");
+                    "--noise, --probe and --draws are of a fit to a map: give --smooth");
+    if (option_value(given, "draws") && !csv)
+        return fail(error, FST_BAD_INPUT, "--draws", "drawn fields are written: give --csv FILE.csv");
+    return FST_OK;
+}
+
+static fst_status perform(const arguments *given, FILE *out, fst_error *error)
+{
+    fst_params params;
+    fst_field_map *smooth = NULL;
+    const char *at = option_value(given, "at"), *figure = option_value(given, "output");
+    const char *csv = option_value(given, "csv");
     fst_shown_units units;
     int quantity = FST_FIELD_STRENGTH;
     fst_field_options map = fst_default_field_options();
-    fst_status status = read_units(given, &units, error);
+    fst_status status = check_asked(given, at, figure, csv, error);
+    if (status == FST_OK)
+        status = read_units(given, &units, error);
     if (status == FST_OK)
         status = read_choice("--quantity", option_value(given, "quantity"), "quantity", FST_WORDS(FST_FIELDS),
                              &quantity, error);
@@ -363,6 +402,8 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         tell_written(figure, "");
     if (status == FST_OK && csv)
         status = write_map(given, &params, map.height, csv, error);
+    if (status == FST_OK && option_value(given, "draws"))
+        status = write_draws(given, &params, map.height, csv, smooth, error);
     fst_field_map_free(smooth);
     return status;
 }

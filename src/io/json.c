@@ -375,6 +375,7 @@ static void put_pull(fst_json *json, const fst_groups *g, double force[3], doubl
 static void put_errors(fst_json *json, const fst_model *model, double x, double y, int in_si)
 {
     double b[3], grad[3][3], force[3];
+    char sentence[256];
     const fst_groups g = fst_model_groups(model);
     if (!fst_field_error(model, x, y, b, grad, force))
         return;
@@ -394,6 +395,13 @@ static void put_errors(fst_json *json, const fst_model *model, double x, double 
     fst_json_real(json, "rough_noise_tesla", fit.rough);
     fst_json_real(json, "degrees_of_freedom", fit.free);
     fst_json_real(json, "chi2_per_degree", fit.chi2);
+    fst_json_real(json, "noise_told_tesla", fit.told);
+    fst_json_reals(json, "chi2_bound", fit.bound, 2);
+    fst_json_text(json, "noise_verdict", fst_noise_verdict_name(fit.verdict));
+    fst_json_real(json, "noise_seen_tesla", fit.seen[0]);
+    fst_json_reals(json, "noise_seen_bound_tesla", fit.seen + 1, 2);
+    fst_map_fit_sentence(&fit, sentence, sizeof sentence);
+    fst_json_text(json, "sentence", sentence);
     if (fit.turned_error[0] > 0) {
         fst_json_reals(json, "probe_turned_rad", fit.turned, 3);
         fst_json_reals(json, "probe_turned_error_rad", fit.turned_error, 3);

@@ -12,6 +12,8 @@
  *
  * A probe whose axes are turned by T shows y = T'B + offset.  T y then enters in place of y: Q is a form of second
  * degree in T's nine elements, and is minimised over three angles by Newton's method; offsets are columns of M.
+ * Half of Q's second derivatives by the angles are Schur's complement S of their block, so that strengths and angles
+ * together have the covariance noise^2 ((M'M + ridge)^-1 + G S^-1 G'), G the change of the strengths with the angles.
  */
 #include "model/charges.h"
 
@@ -21,67 +23,12 @@
 
 #include "base/error.h"
 #include "base/watch.h"
+#include "model/cholesky.h"
 
 static const char PLACE[] = "fst_field_map_smooth";
 
 /* Noise below 1e-5 of the field is lost in the rounding of these sums, and of files. */
 static const double LEAST_Q = 1e-10;
-
-/* ------------------------------------------------------------------ Cholesky */
-
-/* The upper half of a (n x n by rows) becomes R, R'R = a; returns log det a, or NAN. */
-static double factor(int n, double *a)
-{
-    double log_det = 0.0;
-    for (int i = 0; i < n; ++i) {
-        double *row = &a[(size_t)i * (size_t)n];
-        for (int k = 0; k < i; ++k) {
-            const double *above = &a[(size_t)k * (size_t)n], f = above[i];
-            for (int j = i; j < n; ++j)
-                row[j] -= f * above[j];
-        }
-        if (!(row[i] > 0))
-            return NAN;
-        log_det += log(row[i]);
-        const double scale = 1.0 / sqrt(row[i]);
-        for (int j = i; j < n; ++j)
-            row[j] *= scale;
-    }
-    return log_det;
-}
-
-/* Each of `many` x becomes R'^-1 x; the first `from` numbers of all are zero. */
-static void solve_lower(int n, const double *r, double *x, int many, int from)
-{
-    for (int k = from; k < n; ++k) {
-        const double *row = &r[(size_t)k * (size_t)n];
-        for (int m = 0; m < many; ++m) {
-            double *to = &x[m * n];
-            const double f = to[k] /= row[k];
-            for (int j = k + 1; j < n; ++j)
-                to[j] -= f * row[j];
-        }
-    }
-}
-
-/* x becomes R^-1 x. */
-static void solve_upper(int n, const double *r, double *x)
-{
-    for (int i = n - 1; i >= 0; --i) {
-        const double *row = &r[(size_t)i * (size_t)n];
-        for (int j = i + 1; j < n; ++j)
-            x[i] -= row[j] * x[j];
-        x[i] /= row[i];
-    }
-}
-
-static double dot(int n, const double *a, const double *b)
-{
-    double sum = 0.0;
-    for (int i = 0; i < n; ++i)
-        sum += a[i] * b[i];
-    return sum;
-}
 
 /* ------------------------------------------------------------------ the probe's angles */
 
@@ -247,45 +194,120 @@ static void solve(const attempt *a, const double t[9], double *strength)
     }
 }
 
-/* Numbers of the fit: what is left of the samples, and how many unknowns they determine. */
+/* chi^2 over its degrees of freedom, below which it is with the probability that z standard deviations have in a
+ * normal distribution, by Wilson and Hilferty. */
+static double quantile_of_chi2(double freedom, double z)
+{
+    const double spread = 2.0 / (9.0 * freedom), root = 1.0 - spread + z * sqrt(spread);
+    return root * root * root;
+}
+
+/* Numbers of the fit: what is left of the samples, and how many unknowns they determine.  The fitted samples are H y,
+ * and y = noise (1 - H)^-1/2 z with normal z, if fields are as they were taken beforehand.  What is left is (1 - H) y,
+ * so that its square is noise^2 z'(1 - H) z: on the average noise^2 tr(1 - H), and spread about that nearly as chi^2
+ * of tr(1 - H)^2/tr((1 - H)^2) degrees of freedom. */
 static void count_freedom(const attempt *a, fst_map_fit *fit)
 {
+    static const double Z = 1.959963985; /* 95 % are nearer to the mean */
     const fst_charges *charges = a->charges;
     const int n = charge_columns(&charges->sites);
-    double used = a->how->probe ? 3.0 : 0.0;
+    double used = a->how->probe ? 3.0 : 0.0, square = a->sums->count - used;
     for (int c = 0; c < CHARGE_CLASSES; ++c) {
         used += n;
+        square -= n;
         for (int k = 0; k < n; ++k) {
             memset(a->work, 0, (size_t)n * sizeof *a->work);
             a->work[k] = 1.0;
             solve_lower(n, charges->factor[c], a->work, 1, k);
             used -= a->ridge * dot(n - k, &a->work[k], &a->work[k]);
+            solve_upper(n, charges->factor[c], a->work);
+            square += a->ridge * a->ridge * dot(n, a->work, a->work);
         }
     }
     fit->free = a->sums->count - used;
+    /* A field may be smoother than was taken beforehand: then it leaves noise^2 tr((1 - H)^2) at the least. */
+    const double degrees = fit->free * fit->free / square;
+    fit->bound[0] = square / fit->free * quantile_of_chi2(degrees, -Z);
+    fit->bound[1] = quantile_of_chi2(degrees, Z);
     /* Q = |y - M q|^2 + ridge |q|^2 */
     const double left = a->q - a->ridge * dot(CHARGE_CLASSES * n, charges->strength, charges->strength);
     fit->rms = sqrt(fmax(left, 0.0) / a->sums->count);
 }
 
-/* What the probe shows in no field, on its own axes, and how it is turned.  The angles are three of hundreds of
- * unknowns: their errors add next to nothing to the others. */
+/* How the strengths go with the angles.  The angles' covariance is noise^2 times the inverse of Schur's complement,
+ * L L', whose columns are three combinations of angles that know nothing of each other, an error each.  *change: of T
+ * with each of them. */
+static void turn_strengths(const attempt *a, double change[3][9])
+{
+    const int all = CHARGE_CLASSES * charge_columns(&a->charges->sites);
+    double l[9];
+    memcpy(l, a->inverse, sizeof l);
+    (void)factor(3, l);
+    for (int j = 0; j < 3; ++j) {
+        const double *along = &l[3 * j]; /* of which the first j numbers are those of a lower half: none */
+        const double step = ANGLE / sqrt(dot(3 - j, along + j, along + j));
+        double sides[2][9];
+        for (int side = 0; side < 2; ++side) {
+            double angles[3] = {a->angles[0], a->angles[1], a->angles[2]};
+            for (int k = j; k < 3; ++k)
+                angles[k] += (side ? step : -step) * along[k];
+            rotation(angles, sides[side]);
+        }
+        for (int i = 0; i < 9; ++i)
+            change[j][i] = 0.5 * (sides[1][i] - sides[0][i]) / step;
+        solve(a, change[j], &a->charges->turning[j * all]);
+    }
+}
+
+/* What the probe shows in no field, on its own axes, and how it is turned. */
 static void tell_probe(const attempt *a, const double t[9], fst_map_fit *fit)
 {
     const fst_charges *charges = a->charges;
     const int n = charge_columns(&charges->sites);
     const double unit = charges->sites.unit;
+    double change[3][9], with_angles[3][3] = {{0}};
+    turn_strengths(a, change);
     for (int k = 0; k < 3; ++k) {
-        const int c = (k + 1) % 3; /* the class of an offset along the axis k */
-        const double fitted = unit * charges->strength[c * n + n - 1];
+        const int c = (k + 1) % 3,
+                  at = c * n + n - 1; /* the class of an offset along the axis k, and its place */
+        const double fitted = unit * charges->strength[at];
         const double error = unit * fit->noise / charges->factor[c][(size_t)n * (size_t)n - 1];
         for (int i = 0; i < 3; ++i) { /* T' */
             fit->offset[i] += t[3 * k + i] * fitted;
             fit->offset_error[i] = hypot(fit->offset_error[i], t[3 * k + i] * error);
+            for (int j = 0; j < 3; ++j)
+                with_angles[j][i] += change[j][3 * k + i] * fitted +
+                                     t[3 * k + i] * unit * charges->turning[j * CHARGE_CLASSES * n + at];
         }
         fit->turned[k] = a->angles[k];
         fit->turned_error[k] = fit->noise * sqrt(a->inverse[k][k]);
     }
+    for (int i = 0; i < 9; ++i)
+        fit->offset_error[i % 3] = hypot(fit->offset_error[i % 3], fit->noise * with_angles[i / 3][i % 3]);
+}
+
+/* The square of what is left of a component, over its degrees of freedom, T^2. */
+static double left_of(const attempt *a, const fst_map_fit *fit)
+{
+    return fit->rms * fit->rms * a->sums->count / fmax(fit->free, 1.0);
+}
+
+/* Whether the noise told agrees with what is left. */
+static void judge_noise(fst_map_fit *fit, double left2)
+{
+    static const double MORE =
+        1.2; /* than neighbours' differences tell of noise, which they do to a few per cent */
+    fit->seen[0] = sqrt(left2);
+    for (int side = 0; side < 2; ++side) {
+        fit->seen[2 - side] = sqrt(left2 / fit->bound[side]);
+        fit->bound[side] = isnan(fit->told) ? NAN : fit->bound[side];
+    }
+    const int misfit = left2 > MORE * fit->rough * fit->rough;
+    fit->verdict = misfit && !(fit->chi2 < fit->bound[1]) ? FST_NOISE_MISFIT
+                   : isnan(fit->told)                     ? FST_NOISE_NOT_TOLD
+                   : fit->chi2 < fit->bound[0]            ? FST_NOISE_TOO_LARGE
+                   : fit->chi2 < fit->bound[1]            ? FST_NOISE_AGREES
+                                                          : FST_NOISE_TOO_SMALL;
 }
 
 static void conclude(attempt *a)
@@ -296,12 +318,13 @@ static void conclude(attempt *a)
     rotation(a->angles, t);
     solve(a, t, charges->strength);
     count_freedom(a, fit);
-    const double left2 = fit->rms * fit->rms * a->sums->count / fmax(fit->free, 1.0);
+    const double left2 = left_of(a, fit);
     /* Noise that was told too small, or charges that fit badly: what is left is the error then. */
     a->noise2 = fmax(a->noise2, left2);
     fit->noise = sqrt(a->noise2);
-    const double known = isnan(a->how->noise) ? fit->rough : a->how->noise;
+    const double known = isnan(fit->told) ? fit->rough : fit->told;
     fit->chi2 = left2 / (known * known);
+    judge_noise(fit, left2);
     fit->charges = CHARGE_CLASSES * charges->sites.count;
     fit->depth = charges->sites.depth;
     if (a->how->probe)
@@ -318,6 +341,7 @@ void fst_charges_free(fst_charges *charges)
     for (int c = 0; c < CHARGE_CLASSES; ++c)
         free(charges->factor[c]);
     free(charges->strength);
+    free(charges->turning);
     free(charges);
 }
 
@@ -329,6 +353,9 @@ static fst_charges *new_charges(const fst_field_map *map, const fst_smoothing *h
     if (whole)
         charges->strength = calloc(CHARGE_CLASSES * n, sizeof *charges->strength);
     whole = whole && charges->strength;
+    if (whole && how->probe)
+        charges->turning = calloc(3 * CHARGE_CLASSES * n, sizeof *charges->turning);
+    whole = whole && (charges->turning || !how->probe);
     for (int c = 0; c < CHARGE_CLASSES && whole; ++c) {
         charges->factor[c] = calloc(n * n, sizeof **charges->factor);
         whole = charges->factor[c] != NULL;
@@ -361,6 +388,33 @@ static double rough_noise(const fst_field_map *map)
     return sqrt(sum / count);
 }
 
+/* A noise told wrong makes a fit too rough or too smooth, whose rest tells the noise less well than that of a fit
+ * which is told none. */
+static fst_status see_noise(const attempt *told, const fst_progress *progress, fst_error *error)
+{
+    fst_map_fit *fit = &told->charges->fit;
+    if (fit->verdict != FST_NOISE_TOO_SMALL && fit->verdict != FST_NOISE_TOO_LARGE)
+        return FST_OK;
+    attempt again = *told;
+    const fst_smoothing how = {NAN, told->how->probe, told->how->height, told->how->lies};
+    fst_map_fit seen = {.rough = fit->rough, .told = NAN};
+    double t[9];
+    again.how = &how;
+    const fst_status status = find_ridge(&again, progress, error);
+    if (status == FST_OK && again.settled) {
+        rotation(again.angles, t);
+        solve(&again, t, again.charges->strength);
+        count_freedom(&again, &seen);
+        judge_noise(&seen, left_of(&again, &seen));
+        memcpy(fit->seen, seen.seen, sizeof fit->seen);
+    }
+    again = *told; /* factors and strengths as they were */
+    (void)try_ridge(&again, log(told->ridge));
+    rotation(again.angles, t);
+    solve(&again, t, again.charges->strength);
+    return status;
+}
+
 /* Fit charges at one depth.  *found: what became of it. */
 static fst_status fit_at(const fst_field_map *map, const fst_smoothing *how, double depth, attempt *found,
                          const fst_progress *progress, fst_error *error)
@@ -376,7 +430,9 @@ static fst_status fit_at(const fst_field_map *map, const fst_smoothing *how, dou
         status = find_ridge(found, progress, error);
     if (status == FST_OK && found->settled) {
         found->charges->fit.rough = rough_noise(map);
+        found->charges->fit.told = how->noise;
         conclude(found);
+        status = see_noise(found, progress, error);
     }
     charge_sums_free(&sums);
     free(found->work);
@@ -425,35 +481,4 @@ fst_status fst_charges_fit(const fst_field_map *map, const fst_smoothing *how, c
     else
         fst_charges_free(now.charges);
     return status;
-}
-
-/* ------------------------------------------------------------------ the field of the charges */
-
-double *fst_charges_room(const fst_charges *charges)
-{
-    return calloc((size_t)(CHARGE_CLASSES * CHARGE_VALUES * charge_columns(&charges->sites)), sizeof(double));
-}
-
-void fst_charges_look(const fst_charges *charges, const double place[3], int values, double *room, double *out,
-                      double *covariance)
-{
-    const int n = charge_columns(&charges->sites);
-    for (int i = 0; i < values * values && covariance; ++i)
-        covariance[i] = 0.0;
-    charge_rows(&charges->sites, place, values, room);
-    for (int v = 0; v < values; ++v)
-        out[v] = 0.0;
-    for (int c = 0; c < CHARGE_CLASSES; ++c) {
-        double *rows = &room[c * CHARGE_VALUES * n];
-        for (int v = 0; v < values; ++v) {
-            if (charges->sites.offset)
-                rows[v * n + n - 1] = 0.0; /* the probe's, and not the field's */
-            out[v] += dot(n, &rows[v * n], &charges->strength[c * n]);
-        }
-        if (covariance)
-            solve_lower(n, charges->factor[c], rows, values, 0);
-        for (int i = 0; i < values * values && covariance; ++i)
-            covariance[i] +=
-                charges->fit.noise * charges->fit.noise * dot(n, &rows[i / values * n], &rows[i % values * n]);
-    }
 }

@@ -54,6 +54,8 @@ void charge_sums_free(charge_sums *sums);
 typedef struct fst_charges {
     charge_sites sites;
     double *factor[CHARGE_CLASSES], *strength;
+    double
+        *turning; /* how the strengths go with three errors of the probe's angles, over the noise; NULL: none */
     fst_map_fit fit;
 } fst_charges;
 
@@ -65,6 +67,8 @@ void fst_charges_free(fst_charges *charges);
  * values) where it is not NULL.  `room` is for charge_rows(). */
 void fst_charges_look(const fst_charges *charges, const double place[3], int values, double *room, double *out,
                       double *covariance);
+/* Strengths drawn from all that the fit allows, `strength` having room for them. */
+void fst_charges_draw(const fst_charges *charges, uint64_t seed, double *strength);
 double *fst_charges_room(const fst_charges *charges);
 
 #endif

@@ -7,9 +7,12 @@
 #include "model/model.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/error.h"
+#include "base/listed.h"
 #include "base/watch.h"
 
 static const char PLACE[] = "fst_field_map_smooth";
@@ -56,6 +59,18 @@ static fst_status sample(const fst_charges *charges, fst_field_samples *samples,
     return status;
 }
 
+static fst_status map_of(const fst_charges *charges, fst_field_samples *samples, const fst_progress *progress,
+                         fst_field_map **map, fst_error *error)
+{
+    double *b = calloc(3 * (size_t)samples->count[0] * (size_t)samples->count[1], sizeof *b);
+    fst_status status = b ? sample(charges, samples, b, progress, error)
+                          : fst_fail(error, FST_NO_MEMORY, PLACE, "out of memory");
+    if (status == FST_OK)
+        status = fst_field_map_new(samples, NULL, map, error);
+    free(b);
+    return status;
+}
+
 static fst_status make_map(const fst_field_map *measured, const fst_charges *charges, double height,
                            const fst_progress *progress, fst_field_map **smooth, fst_error *error)
 {
@@ -74,13 +89,56 @@ static fst_status make_map(const fst_field_map *measured, const fst_charges *cha
         samples.count[axis] = (facts.count[axis] - 1) * times + 1;
         samples.spacing[axis] = facts.spacing[axis] / times;
     }
-    double *b = calloc(3 * (size_t)samples.count[0] * (size_t)samples.count[1], sizeof *b);
-    fst_status status = b ? sample(charges, &samples, b, progress, error)
-                          : fst_fail(error, FST_NO_MEMORY, PLACE, "out of memory");
-    if (status == FST_OK)
-        status = fst_field_map_new(&samples, NULL, smooth, error);
-    free(b);
+    return map_of(charges, &samples, progress, smooth, error);
+}
+
+fst_status fst_field_map_draw(const fst_field_map *smooth, uint64_t seed, const fst_progress *progress,
+                              fst_field_map **drawn, fst_error *error)
+{
+    const fst_charges *charges = fst_map_charges(smooth);
+    const fst_field_map_facts facts = fst_field_map_describe(smooth);
+    fst_field_samples samples = {.count = {facts.count[0], facts.count[1], 1}};
+    *drawn = NULL;
+    if (!charges)
+        return fst_fail(error, FST_BAD_INPUT, PLACE, "fields are drawn of a smoothed map, which this is not");
+    memcpy(samples.first, facts.first, sizeof samples.first);
+    memcpy(samples.spacing, facts.spacing, sizeof samples.spacing);
+    fst_charges one = *charges;
+    one.strength = calloc((size_t)(CHARGE_CLASSES * charge_columns(&charges->sites)), sizeof *one.strength);
+    if (one.strength)
+        fst_charges_draw(charges, seed, one.strength);
+    const fst_status status = one.strength ? map_of(&one, &samples, progress, drawn, error)
+                                           : fst_fail(error, FST_NO_MEMORY, PLACE, "out of memory");
+    free(one.strength);
     return status;
+}
+
+const char *fst_noise_verdict_name(fst_noise_verdict verdict)
+{
+    FST_NAME_IN(FST_NOISE_VERDICTS, verdict, "unknown");
+}
+
+void fst_map_fit_sentence(const fst_map_fit *fit, char *sentence, size_t size)
+{
+    static const char causes[] = "a turned probe, exchanged axes, wrong places?";
+    const double times = sqrt(fit->chi2), milli = 1e3;
+    sentence[0] = '\0';
+    if (fit->verdict == FST_NOISE_MISFIT && isnan(fit->told))
+        (void)snprintf(sentence, size, "more is left than noise: %s", causes);
+    else if (fit->verdict == FST_NOISE_AGREES)
+        (void)snprintf(sentence, size,
+                       "the residuals are %.4g times the noise told, with which %.4g to %.4g agree", times,
+                       sqrt(fit->bound[0]), sqrt(fit->bound[1]));
+    else if (fit->verdict == FST_NOISE_MISFIT)
+        (void)snprintf(
+            sentence, size,
+            "the residuals are %.3g times the noise told, of which neighbouring samples show %.3g mT: "
+            "more is left than noise: %s",
+            times, milli * fit->rough, causes);
+    else if (fit->verdict != FST_NOISE_NOT_TOLD)
+        (void)snprintf(sentence, size,
+                       "the residuals are %.3g times the noise told: it is probably %.4g mT (%.4g to %.4g mT)",
+                       times, milli * fit->seen[0], milli * fit->seen[1], milli * fit->seen[2]);
 }
 
 fst_status fst_field_map_smooth(const fst_field_map *measured, const fst_smoothing *how,

@@ -287,10 +287,42 @@ class Smooth(Maps):
         self.assertGreater(small["chi2_per_degree"], 3)
         self.assertGreater(small["noise_tesla"], 0.9e-3 * self.noise)
 
+    def test_the_noise_told_is_judged(self):
+        for times, verdict, words in ((0.5, "too small", "it is probably"), (1.0, "agrees", "with which"), (2.0, "too large", "it is probably")):
+            told = ["--noise", f"{times * self.noise} mT"]
+            fit = self.told(*told)["fit"]
+            self.assertEqual(fit["noise_verdict"], verdict)
+            self.assertAlmostEqual(fit["noise_told_tesla"], 1e-3 * times * self.noise, delta=1e-12)
+            self.assertEqual(fit["chi2_bound"][0] < fit["chi2_per_degree"] < fit["chi2_bound"][1], verdict == "agrees")
+            low, high = fit["noise_seen_bound_tesla"]
+            self.assertTrue(low < 1e-3 * self.noise < high)
+            self.assertTrue(low < fit["noise_seen_tesla"] < high)
+            self.assertIn(words, fit["sentence"])
+            text = self.good("field", *self.over(self.noisy), "--smooth", *told, "--at", "0,0")
+            self.assertEqual(text.splitlines()[1], fit["sentence"])
+        fit = self.told()["fit"]
+        self.assertEqual((fit["noise_verdict"], fit["sentence"], fit["noise_told_tesla"]), ("not told", "", None))
+        self.assertEqual(fit["chi2_bound"], [None, None])
+
+    def test_drawn_fields(self):
+        """Each is another map; their spread is that of the errors in the file of the likeliest."""
+        name = self.path("smooth.csv")
+        self.good("field", *self.over(self.noisy), "--smooth", "--csv", name, "--spacing", "9mm", "--draws", "24")
+        read = lambda path: [[float(cell) for cell in line.split(",")] for line in open(path) if line[0] in "-0123456789"]
+        likeliest, drawn = read(name), [read(self.path(f"smooth-{i}.csv")) for i in range(1, 25)]
+        self.assertFalse(os.path.exists(self.path("smooth-25.csv")))
+        squares = [((one[i][k] - row[k]) / row[k + 3]) ** 2 for one in drawn for i, row in enumerate(likeliest) for k in (3, 4, 5)]
+        self.assertAlmostEqual(math.sqrt(sum(squares) / len(squares)), 1.0, delta=0.15)
+        run = json.loads(self.good("run", *self.over(self.path("smooth-3.csv"), *SHORT), "--json"))
+        self.assertGreater(run["mean_r"], 0)
+
     def test_what_is_wrong(self):
         at = ["--at", "0,0"]
         for words, sentence in (([*self.over(self.noisy), "--probe", *at], "give --smooth"),
                                 ([*self.over(self.noisy), "--noise", "1mT", *at], "give --smooth"),
+                                ([*self.over(self.noisy), "--smooth", "--draws", "3", *at], "give --csv"),
+                                ([*self.over(self.noisy), "--smooth", "--csv", self.path("x.csv"), "--draws", "0"], "draws"),
+                                ([*self.over(self.noisy), "--csv", self.path("x.csv"), "--draws", "3"], "give --smooth"),
                                 ([*self.over(self.noisy), "--smooth", "--noise", "much", *at], "as in 0.05mT"),
                                 ([*self.over(self.noisy), "--smooth", "--noise", "9T", *at], "a positive field"),
                                 ([*self.over(self.noisy), "--smooth", "--height", "1mm", *at], "too near"),
