@@ -369,7 +369,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     fst_field_map *smooth = NULL;
     const char *at = option_value(given, "at"), *figure = option_value(given, "output");
     const char *csv = option_value(given, "csv");
-    fst_shown_units units;
+    fst_shown_units units = FST_SHOWN_SCALED;
     int quantity = FST_FIELD_STRENGTH;
     fst_field_options map = fst_default_field_options();
     fst_status status = check_asked(given, at, figure, csv, error);

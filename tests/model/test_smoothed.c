@@ -186,7 +186,7 @@ static void test_noise_told(void **unused)
 static void test_draws(void **unused)
 {
     (void)unused;
-    enum { DRAWS = 150 };
+    enum { DRAWS = 100 };
     double sigma, b[2][3], grad[2][3][3], eb[3], eg[3][3], ef[3], of_b = 0.0, of_slope = 0.0;
     const fst_params p = magnet(1);
     above = 90e-3;
