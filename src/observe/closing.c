@@ -13,7 +13,19 @@
  * Four marks in a row must lie below the limit, and the way that is left must be no more than the limit.  rho
  * is taken over eight marks: over one or two of them it is lost in the errors of the steps where it is close to
  * 1, and then the way is much longer than the distance.  Where the distances do not fall, the way is the last
- * one times the number of marks that the rest of the run would have. The times and the changes of Phi between
+ * one times the number of marks that the rest of the run would have.
+ *
+ * Under dry friction the errors of the steps may be as large as a third of the limit, because a step ends where
+ * the contact changes, and then no distance says more.  But it is known how long the last power of ten down to
+ * the limit took.  While the marks go on to repeat, the way goes on to fall as fast, unseen:
+ *
+ *     ten limits |x
+ *          limit |- - x- - - - - - - -      way = limit 0.1^(stood/fall)/(1 - rho), and twice the distance
+ *                |     x x x  x x x x       between states that are at least half of `stood` apart, because
+ *                +-----|------------- t     something slower may hide
+ *                 fall      stood
+ *
+ * The times and the changes of Phi between
  * successive marks must agree too, and the means of r and n_z.  Means of other quantities need not: on an orbit
  * that passes the axis closely the directions along r and alpha turn so fast that the errors of their integrals
  * are larger than whatever the motion still has to go.
@@ -37,8 +49,13 @@ static const double SEEN_TO_RISE = 0.1;
  * and its symmetry is to be seen too. */
 static const double LEAST_LIMIT = 1e-9, MOST_LIMIT = 1e-7;
 
+static const double TEN = 10.0; /* limits: where the fall is timed from */
+
 enum { FIRST, BEFORE, LAST };
-enum { RISES = 5 }; /* one after the other: an unstable orbit is left */
+enum {
+    RISES = 5, /* one after the other: an unstable orbit is left */
+    LEAST_REPEATS = 2 * FST_CLOSING_PAST
+};
 
 void fst_closing_begin(fst_closing *c, double rtol)
 {
@@ -47,14 +64,26 @@ void fst_closing_begin(fst_closing *c, double rtol)
     c->limit = fmin(fmax(LEAST_LIMIT, 10.0 * rtol), MOST_LIMIT);
 }
 
-void fst_closing_see(fst_closing *c, double distance)
+void fst_closing_see(fst_closing *c, const fst_mark *mark, double distance)
 {
+    if (!(distance <= TEN * c->limit))
+        c->far_at = mark->t.high;
     c->approached |= distance > FAR * c->limit && isfinite(distance);
 }
 
 double fst_closing_turn(const fst_closing *c)
 {
     return fst_time_between(&c->mark[BEFORE], &c->mark[LAST]);
+}
+
+/* The way of what fell to the limit and then could not be seen to fall. */
+static double way_below(const fst_closing *c)
+{
+    const double fall = c->since - c->far_at, stood = c->mark[LAST].t.high - c->since;
+    if (!c->floored || c->repeats < LEAST_REPEATS)
+        return INFINITY;
+    return c->limit * pow(TEN, -stood / fall) / (1.0 - pow(TEN, -fst_closing_turn(c) / fall)) +
+           2.0 * fst_state_distance(c->mark[LAST].state, c->stood[1]);
 }
 
 double fst_closing_way(const fst_closing *c, double until)
@@ -64,7 +93,7 @@ double fst_closing_way(const fst_closing *c, double until)
     if (c->known <= FST_CLOSING_PAST)
         return INFINITY;
     const double rho = pow(last / before, 1.0 / FST_CLOSING_PAST);
-    return last * (rho < 1.0 ? fmin(1.0 / (1.0 - rho), marks) : marks);
+    return fmin(last * (rho < 1.0 ? fmin(1.0 / (1.0 - rho), marks) : marks), way_below(c));
 }
 
 /* Whether the motion between the last two marks was the one between the two before. */
@@ -85,6 +114,7 @@ static int way_agrees(const fst_closing *c)
 void fst_closing_forget(fst_closing *c)
 {
     c->count = c->known = 0;
+    c->repeats = 0;
 }
 
 void fst_closing_go_on(fst_closing *c, double distance)
@@ -94,14 +124,27 @@ void fst_closing_go_on(fst_closing *c, double distance)
     c->known = isnan(distance) ? 0 : c->known + (c->known <= FST_CLOSING_PAST);
 }
 
+/* One more mark repeats. */
+static void stand(fst_closing *c, const fst_mark *mark)
+{
+    if (c->repeats++ == 0)
+        c->since = mark->t.high;
+    if (c->repeats & (c->repeats - 1))
+        return;
+    memcpy(c->stood[1], c->stood[0], sizeof c->stood[0]);
+    memcpy(c->stood[0], mark->state, sizeof c->stood[0]);
+}
+
 int fst_closing_add(fst_closing *c, const fst_mark *mark, double until)
 {
     fst_closing_go_on(c, mark->full_distance);
     if (!(mark->full_distance < c->limit)) {
-        fst_closing_see(c, mark->full_distance);
+        fst_closing_see(c, mark, mark->full_distance);
         c->count = 0;
+        c->repeats = 0;
         return 0;
     }
+    stand(c, mark);
     if (c->count > 0) {
         memmove(c->mark, c->mark + 1, 2 * sizeof *c->mark);
         c->mark[LAST] = *mark;

@@ -87,7 +87,7 @@ static int completes(fst_cycle *c, fst_mark *mark)
         mark->full_distance = nearest;
         return 1;
     }
-    fst_closing_see(&c->closing, nearest);
+    fst_closing_see(&c->closing, mark, nearest);
     return 0;
 }
 

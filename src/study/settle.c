@@ -33,8 +33,8 @@ static const double WORTHWHILE = 0.5;
  * slowly.  At the window's end it may be so many times as much: noise has peaks. */
 static const double AT_REST = 100.0, DEFAULT_RTOL = 1e-10, MOST_AT_REST = 1e-5, STILL_AT_REST = 100.0;
 static const double GROWS = 1e-6; /* rate at which a deviation from rest grows */
-/* Under dry friction that rate is not known, so that the bead must have been faster than at rest, by FAR, or
- * faster than QUICK and by MORE, to be known to come to rest there. */
+/* Under dry friction that rate is known only where the contact slips, so that the bead must have been faster than
+ * at rest, by FAR, or faster than QUICK and by MORE, to be known to come to rest there. */
 static const double FAR = 1000.0, QUICK = 1e-3, MORE = 10.0;
 enum {
     PERIODS_AT_REST = 4,
@@ -69,6 +69,7 @@ void fst_settling_begin(fst_watched_run *run)
     run->window.returns.left_out.state = FST_LEFT_OUT_NEVER;
     fst_closing_begin(&s->returns, run->params->run_rtol);
     fst_cycle_begin(&s->cycle, run->params->run_rtol);
+    s->returns.floored = s->cycle.closing.floored = run->model->world.kinds.dry;
 }
 
 /* A new window from the flow's time on. */
@@ -120,8 +121,12 @@ static double noise_of(const fst_watched_run *run)
 /* Whether the bead stands still at a place that it will leave, or was put down there. */
 static int is_repelled(const fst_watched_run *run)
 {
-    if (run->model->world.kinds.dry)
-        return !run->settling.has_moved;
+    const fst_flow *flow = run->flow;
+    if (run->model->world.kinds.dry && !run->settling.has_moved)
+        return 1;
+    if (run->model->world.kinds.dry &&
+        !(fst_contact_mode(flow) == FST_MODE_SLIP && fst_contact_roll(flow) == FST_ROLL_ROLLS))
+        return 0;
     return fst_rest_rate(run->model, run->flow->step.end) > GROWS + noise_of(run);
 }
 

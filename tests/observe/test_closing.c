@@ -143,6 +143,42 @@ static void test_holding(void **unused)
     assert_false(holds((const double[]){1e-12, 2e-12, 3e-12, 4e-12, 5e-12, 1.1e-11}, 6));
 }
 
+/* Distances that fall by a factor rho each from 1 on, down to errors of the steps of half the limit, while the
+ * states go on by `creep` from mark to mark: how many marks repeat before the motion is known, or -1. */
+static int known_on_floor(int floored, double rho, double creep)
+{
+    fst_closing c;
+    fst_mark mark = {.full_distance = 1.0};
+    int repeats = 0;
+    fst_closing_begin(&c, 1e-10);
+    c.floored = floored;
+    for (int i = 0; i < 4000; ++i) {
+        mark.t = (fst_twofold){TURN * i, 0.0};
+        mark.state[FST_X] = creep * i;
+        repeats += mark.full_distance < c.limit;
+        if (fst_closing_add(&c, &mark, 1e6))
+            return repeats;
+        mark.full_distance = fmax(mark.full_distance * rho, (0.4 + 0.1 * (i % 3)) * c.limit);
+    }
+    return -1;
+}
+
+/* Where the errors of the steps end the fall, the last power of ten of it says how far what cannot be seen has
+ * fallen since: to the limit by 1/(1 - rho).  A state that goes on creeping has not closed. */
+static void test_floor(void **unused)
+{
+    (void)unused;
+    static const double factors[] = {0.8, 0.9, 0.95, 0.99};
+    for (int i = 0; i < 4; ++i) {
+        const double rho = factors[i], least = 1.0 + log(1.0 - rho) / log(rho);
+        assert_int_equal(known_on_floor(0, rho, 0.0), -1);
+        CHECK_CLOSE(known_on_floor(1, rho, 0.0), fmax(least, 16.0), 2.0 + 0.05 * least);
+        assert_int_equal(known_on_floor(1, rho, 0.1e-9), -1);
+    }
+    /* states that creep by 0.02 limits are allowed where no more than 25 marks lie between them */
+    assert_true(known_on_floor(1, 0.8, 0.02e-9) == 16 && known_on_floor(1, 0.99, 0.02e-9) == -1);
+}
+
 /* Whether cycles are a libration: of this greatest speed, Phi going on by `further` in each. */
 static int librates(double rtol, double distance, double speed, double further)
 {
@@ -225,10 +261,11 @@ static void test_several_maxima(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_four_marks), cmocka_unit_test(test_what_must_agree),
-        cmocka_unit_test(test_limits),     cmocka_unit_test(test_breaks),
-        cmocka_unit_test(test_holding),    cmocka_unit_test(test_cycles),
-        cmocka_unit_test(test_watching),   cmocka_unit_test(test_several_maxima),
+        cmocka_unit_test(test_four_marks),     cmocka_unit_test(test_what_must_agree),
+        cmocka_unit_test(test_limits),         cmocka_unit_test(test_breaks),
+        cmocka_unit_test(test_holding),        cmocka_unit_test(test_floor),
+        cmocka_unit_test(test_cycles),         cmocka_unit_test(test_watching),
+        cmocka_unit_test(test_several_maxima),
     };
     return cmocka_run_group_tests_name("closing", tests, NULL, NULL);
 }

@@ -239,6 +239,35 @@ static void go_on(fst_watched_run *run, double periods)
         assert_int_equal(fst_watched_run_go_on(run, 1, &over, NULL), FST_OK);
 }
 
+/* Under dry friction a slipping lock that repels the bead is no rest, from however far it came: of those at 7.7
+ * Hz the bead comes to rest at the pair that attracts it, at 8.2 Hz at none. */
+static void test_unstable_slipping_rest(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i < 2; ++i) {
+        fst_params p = libration(i == 0 ? 7.7 : 8.2, 1.5);
+        fst_locked_list locks;
+        int rests = 0;
+        p.friction_law = FST_FRICTION_COULOMB;
+        p.friction_mu = 0.05;
+        p.run_periods = 16.0;
+        p.run_discard = 0.0;
+        assert_int_equal(fst_locked_find(&p, NULL, &locks, NULL), FST_OK);
+        assert_int_equal(locks.count, 8);
+        for (size_t k = 0; k < locks.count; ++k) {
+            fst_watched_run run;
+            begin(&run, &p, locks.states[k].state);
+            run.settling.has_moved = 1; /* as if it had come from far */
+            go_on(&run, INFINITY);
+            assert_true((run.settling.as == FST_SETTLED_REST) == locks.states[k].stable);
+            rests += locks.states[k].stable;
+            fst_watched_run_free(&run);
+        }
+        assert_int_equal(rests, i == 0 ? 2 : 0);
+        fst_locked_free(&locks);
+    }
+}
+
 /* The error bars of means are those of the window, and take in the way that is left; at rest that is the
  * swing about the place, and where n turns freely all that <n_z> may become. */
 static void test_error_bars(void **unused)
@@ -369,6 +398,7 @@ int main(void)
         cmocka_unit_test(test_unstable_orbit),
         cmocka_unit_test(test_rest),
         cmocka_unit_test(test_unstable_rest),
+        cmocka_unit_test(test_unstable_slipping_rest),
         cmocka_unit_test(test_put_down),
         cmocka_unit_test(test_error_bars),
         cmocka_unit_test(test_too_late_to_settle),
