@@ -283,3 +283,18 @@ void fst_means_fill(const fst_window *w, const fst_mark_series *series, const fs
     result->window_periods = fst_twofold_difference(last->t, first->t) / w->period;
     fst_extremes_fill(w->extremes, g->gravity, result);
 }
+
+void fst_means_widen(const fst_window *w, const fst_mark_series *series, fst_run_result *result)
+{
+    fst_ramp_point first, second;
+    const fst_mark *middle = &series->kept[series->count / 2];
+    if (series->count < 3)
+        return;
+    fst_means_between(w, &series->kept[0], middle, &first);
+    fst_means_between(w, middle, &series->latest, &second);
+    result->mean_r_error = fmax(result->mean_r_error, fabs(second.mean_r - first.mean_r));
+    result->mean_alpha_dot_error =
+        fmax(result->mean_alpha_dot_error, fabs(second.mean_alpha_dot - first.mean_alpha_dot));
+    result->mean_nz_error =
+        fmin(fmax(result->mean_nz_error, fabs(second.mean_nz - first.mean_nz)), 1.0 + fabs(result->mean_nz));
+}

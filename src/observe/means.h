@@ -15,4 +15,7 @@ int fst_never_slips(const fst_window *w, const fst_mark_series *series);
 void fst_means_fill(const fst_window *w, const fst_mark_series *series, const fst_params *params,
                     fst_run_result *result);
 
+/* Of a chaotic motion: errors no smaller than what the means of the window's halves differ by. */
+void fst_means_widen(const fst_window *w, const fst_mark_series *series, fst_run_result *result);
+
 #endif

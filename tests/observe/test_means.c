@@ -75,6 +75,33 @@ static void test_errors_from_the_scatter_of_blocks(void **unused)
     CHECK_CLOSE(r.mean_r_error / (deviation / sqrt(BLOCKS)), 2.0, 1e-9);
 }
 
+/* Of a chaotic motion under dry friction, whose halves tell of how far later ones may lie: their difference, in each
+ * sense, unless the error is larger or beyond all that n_z may be. */
+static void test_errors_of_halves(void **unused)
+{
+    (void)unused;
+    for (int wide = 0; wide < 2; ++wide) {
+        by_hand *b = begin();
+        fst_run_result r;
+        fst_result_clear(&r);
+        for (int i = 0; i <= BLOCKS; ++i) {
+            const double past = i > BLOCKS / 2 ? i - BLOCKS / 2 : 0; /* blocks of the second half */
+            b->marks.kept[i].integrals[FST_Q_R] = SPAN * (0.8 * i - 0.03 * past);
+            b->marks.kept[i].integrals[FST_Q_N_Z] = SPAN * (0.9 * i - 1.8 * past);
+            b->marks.kept[i].bead_angle = SPAN * (-0.2 * i + 0.01 * past);
+        }
+        b->marks.latest = b->marks.kept[BLOCKS];
+        r.mean_nz = 0.25;
+        r.mean_r_error = r.mean_nz_error = r.mean_alpha_dot_error = wide ? 0.7 : 1e-3;
+        fst_means_widen(&b->run.window, &b->marks, &r);
+        CHECK_CLOSE(r.mean_r_error, wide ? 0.7 : 0.03, 1e-12);
+        CHECK_CLOSE(r.mean_alpha_dot_error, wide ? 0.7 : 0.01, 1e-12);
+        CHECK_CLOSE(r.mean_nz_error, 1.25, 1e-12);
+        fst_watched_run_free(&b->run);
+        test_free(b);
+    }
+}
+
 /* Blocks that come closer to their limit in turns from either side, or first fast and then slowly: the error
  * covers the limit, and is no wider than some blocks of the approach. */
 static void test_errors_of_an_approach(void **unused)
@@ -278,6 +305,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_errors_from_the_scatter_of_blocks),
+        cmocka_unit_test(test_errors_of_halves),
         cmocka_unit_test(test_errors_of_an_approach),
         cmocka_unit_test(test_errors_of_marks_that_differ),
         cmocka_unit_test(test_a_broken_balance_in_any_block),

@@ -105,6 +105,42 @@ def study(count, seed, default_length, quick, directory, threads, tell):
     return pairs
 
 
+def chaotic_scenes(magnet, count, seed, periods, directory, threads):
+    """Settings of random scenes with dry friction, among `count`, that a sweep calls chaotic."""
+    fixed = {"friction.law": "coulomb", "run.rtol": 1e-8, **magnet}
+    moving = {"friction.mu": (0.15, 0.5), "drive.frequency": (7.5, 12), "start.r": (0.3, 1.2), "start.phi": (0, 180)}
+    rows = sweep(fixed, moving, count, seed, periods, os.path.join(directory, f"chaos-{seed}-{periods}.db"), threads)
+    return [{**fixed, **{key: row[key] for key in moving}} for row in rows if row["regime"] == "chaotic"]
+
+
+def one_run(settings, periods):
+    words = [FESTOON, "run", "--json", "--set", f"run.periods={periods}", "--set", f"run.discard={periods // 2}"]
+    for key, value in settings.items():
+        words += ["--set", f"{key}={value}"]
+    return json.loads(subprocess.run(words, check=True, capture_output=True, text=True).stdout)
+
+
+def chaos(given, directory):
+    """How often the means of chaotic runs with dry friction are off by more than their error and that of a run ten times as
+    long, by what the longer run is called.  n_z by its size: it may have changed its sign."""
+    table = collections.defaultdict(lambda: [0, 0, 0])
+    for periods in (100, 400):
+        for settings in chaotic_scenes({}, given.chaos, given.seed, periods, directory, given.threads):
+            short, long = one_run(settings, periods), one_run(settings, LONGER * periods)
+            if short["regime"] != "chaotic":
+                continue
+            row = table[periods, long["regime"]]
+            row[0] += 1
+            for key in ("mean_r", "mean_alpha_dot", "mean_nz"):
+                if long[key] is not None and long["regime"] not in ("ejected", "lifted"):
+                    error = math.hypot(short[key + "_error"], long[key + "_error"] or 0.0)
+                    row[1] += 1
+                    row[2] += abs(abs(short[key]) - abs(long[key])) > error
+    print("| drive periods | in the longer run | runs | means | off by more than the error |\n|---|---|---|---|---|")
+    for (periods, regime), (runs, means, missed) in sorted(table.items()):
+        print(f"| {periods} | {regime} | {runs} | {means} | {missed} |")
+
+
 def wilson(hits, total, z=1.959963984540054):
     """Interval of 95 % of a share; see E. B. Wilson, J. Am. Stat. Assoc. 22, 209 (1927)."""
     if total == 0:
@@ -203,7 +239,12 @@ def main():
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--write", action="store_true", help="write the table into docs/regimes.md")
     parser.add_argument("--json", metavar="FILE", help="write the counts there too")
+    parser.add_argument("--chaos", type=int, metavar="N", help="instead: the errors of chaotic runs among N with dry friction")
     given = parser.parse_args()
+    if given.chaos:
+        with tempfile.TemporaryDirectory(prefix="festoon-chaos-") as scratch:
+            chaos(given, scratch)
+        return
     with tempfile.TemporaryDirectory(prefix="festoon-regimes-") as scratch:
         directory = given.keep or scratch
         os.makedirs(directory, exist_ok=True)
