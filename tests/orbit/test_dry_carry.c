@@ -231,7 +231,6 @@ static void creeping_is_given_up(void **unused)
             if (fst_carry(&setup, TOLERANCE, longer ? 1e-3 : 1e-4, y, tangent, &error) == FST_OK)
                 continue;
             given_up += 1;
-            assert_int_equal(error.status, FST_NO_CONVERGENCE);
             assert_non_null(
                 strstr(error.sentence, "friction can hardly stop the contact's slip at t = 0.00025"));
         }
