@@ -334,7 +334,8 @@ static void orbits_of_held_discs(void **unused)
     static const double cases[][5] = {{0.2, 0.24, 15.0, 3e-3, NAN},
                                       {0.5, 0.6, 15.0, 3e-3, NAN},
                                       {0.3, 0.4, 30.0, 4e-3, NAN},
-                                      {0.5, 0.6, 15.0, NAN, 3e3}};
+                                      {0.5, 0.6, 15.0, NAN, 3e3},
+                                      {0.2, 0.24, 15.0, NAN, 3e3}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
         fst_params params = flying(cases[k][0], NAN, cases[k][2]);
         fst_family family;
