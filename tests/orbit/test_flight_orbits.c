@@ -368,11 +368,61 @@ static void orbits_of_held_discs(void **unused)
     }
 }
 
+/* A branch goes through holdings and lettings go, over the static friction at which the disc lets go: at its ends it
+ * has the orbits that the bead comes to there, and along it three directions are lost. */
+static void branch_of_held_discs(void **unused)
+{
+    (void)unused;
+    static const double ends[] = {0.22, 0.3};
+    fst_params params = flying(0.2, NAN, 15.0);
+    params.friction_mu_static = 0.24;
+    params.contact_patch = FST_PATCH_HERTZ;
+    params.contact_radius = 3e-3;
+    fst_branch_options options = fst_default_branch_options();
+    options.kind = FST_BRANCH_COUNTER;
+    options.key = "friction.mu_static";
+    options.from = ends[0];
+    options.to = ends[1];
+    fst_branch branch = followed(&params, &options);
+    assert_true(branch.branches == 1 && branch.end_count == 2 && branch.point_count < 9);
+    for (size_t i = 0; i < branch.point_count; ++i) {
+        int lost = 0;
+        for (int k = 0; k < branch.points[i].multipliers; ++k)
+            lost += branch.points[i].multiplier_re[k] == 0.0 && branch.points[i].multiplier_im[k] == 0.0;
+        assert_int_equal(lost, 3);
+    }
+    for (int i = 0; i < 2; ++i) {
+        const fst_branch_point *at = &branch.points[i ? branch.point_count - 1 : 0];
+        fst_orbit orbit;
+        fst_error error;
+        params.friction_mu_static = ends[i];
+        assert_int_equal(branch.ends[i].type, FST_END_RANGE);
+        if (fst_orbit_find(&params, NULL, &orbit, &error) != FST_OK)
+            fail_msg("%s", error.sentence);
+        double greatest[2] = {0.0, 0.0};
+        for (int k = 0; k < at->multipliers; ++k) {
+            greatest[0] = fmax(greatest[0], hypot(at->multiplier_re[k], at->multiplier_im[k]));
+            greatest[1] = fmax(greatest[1], hypot(orbit.multiplier_re[k], orbit.multiplier_im[k]));
+        }
+        printf("held at mu_s %g: <r> off by %.2g, period by %.2g, multiplier %.6f by %.2g, sticks %.3g\n",
+               ends[i], at->mean_r - orbit.means.mean_r, at->period - orbit.means.period, greatest[0],
+               greatest[0] - greatest[1], orbit.means.sticking);
+        CHECK_CLOSE(at->value, ends[i], 1e-15);
+        CHECK_CLOSE(at->mean_r, orbit.means.mean_r, 1e-9);
+        CHECK_CLOSE(at->period, orbit.means.period, 1e-8);
+        CHECK_CLOSE(greatest[0], greatest[1], 1e-6);
+        assert_true(orbit.means.sticking > 0.01);
+    }
+    fst_branch_free(&branch);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(multipliers_against_differences), cmocka_unit_test(branch_through_lift_off),
-        cmocka_unit_test(orbits_of_held_discs), cmocka_unit_test(exponents_of_hops),
-        cmocka_unit_test(exponents_of_one_that_hardly_lands)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(multipliers_against_differences),
+                                       cmocka_unit_test(branch_through_lift_off),
+                                       cmocka_unit_test(orbits_of_held_discs),
+                                       cmocka_unit_test(branch_of_held_discs),
+                                       cmocka_unit_test(exponents_of_hops),
+                                       cmocka_unit_test(exponents_of_one_that_hardly_lands)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
