@@ -1,10 +1,11 @@
 /* Curves of solutions where Newton's method fails at a bad moment.
  * tests: orbit/curve.c orbit/node.c */
-#include "numeric.h"
+#include "branches.h"
 
-#include <stdio.h>
+#include <string.h>
 
 #include "orbit/curve.h"
+#include "orbit/search.h"
 
 /* LAPACK with a fault: the given number of times, it calls a system singular that holds the parameter fixed, as
  * at the border of the range. Such systems are known by a last row of zeros but for its last element. */
@@ -106,11 +107,52 @@ static void a_border_out_of_reach(void **state)
     assert_true(p.nodes > 3 && p.last > 0.64 && p.last < 0.65);
 }
 
+/* An orbit of twice the period that is close to the one that is gone round twice, as beside its birth (made up: a
+ * state of the chain is moved by `apart`), is followed over omega. */
+static void follow_doubled(double apart, path *p, fst_curve *curve)
+{
+    const fst_params params = scene_of(0.25, "rigid");
+    fst_family still, family;
+    fst_orbit_outcome outcome;
+    fst_solution once;
+    fst_error error;
+    fst_node start;
+    memset(p, 0, sizeof *p);
+    assert_int_equal(fst_family_begin(&still, &params, NULL, &error), FST_OK);
+    assert_int_equal(fst_search_orbit(&still, &once, &outcome, &error), FST_OK);
+    assert_int_equal(fst_family_begin(&family, &params, "drive.omega", &error), FST_OK);
+    fst_solution twice = {.period = 2.0 * fst_whole_period(&once), .value = 0.25};
+    memcpy(twice.y[0], once.y[0], sizeof twice.y[0]);
+    assert_int_equal(fst_solution_chain(&family, &twice, 2, &error), FST_OK);
+    assert_int_equal(fst_solution_correct(&family, &twice, NULL, &error), FST_OK);
+    assert_int_equal(fst_node_make(&family, &twice, &start, &error), FST_OK);
+    start.s.y[1][FST_WX] += apart;
+    *curve = (fst_curve){.family = &family,
+                         .from = 0.24,
+                         .to = 0.26,
+                         .longest_step = 0.5,
+                         .sink = {p, 0, take_node, take_special}};
+    assert_int_equal(fst_curve_follow(curve, &start, 1, &error), FST_OK);
+}
+
+/* A curve does not go on along an orbit of half its period, unless it has always done so. */
+static void half_the_period_is_another_curve(void **state)
+{
+    (void)state;
+    fst_curve curve;
+    path p;
+    follow_doubled(0.0, &p, &curve);
+    assert_true(curve.end.type == FST_END_RANGE && p.nodes > 0);
+    follow_doubled(1e-4, &p, &curve);
+    assert_true(curve.end.type == FST_END_LOST && p.nodes == 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_border_is_reached_in_smaller_steps),
         cmocka_unit_test(a_border_out_of_reach),
+        cmocka_unit_test(half_the_period_is_another_curve),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
