@@ -334,7 +334,9 @@ static void enclose_grazing(const interval *i, double at[2], fst_node beside[2])
     beside[0] = *i->a, beside[1] = *i->b;
     for (int k = 0; k < HALVINGS && (at[1] - at[0]) * i->b->length > 1e-8; ++k) {
         const double x = 0.5 * (at[0] + at[1]);
-        if (fst_node_between(i->family, i->a, i->b, x, &middle, &ignored) != FST_OK)
+        fst_node far = beside[1];
+        far.length = (at[1] - at[0]) * i->b->length; /* the closer the two, the better is what lies between */
+        if (fst_node_between(i->family, &beside[0], &far, 0.5, &middle, &ignored) != FST_OK)
             break;
         const int side = middle.captures != i->a->captures;
         at[side] = x;
