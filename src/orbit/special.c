@@ -376,6 +376,8 @@ fst_status fst_specials_between(const fst_family *family, const fst_curve_sink *
                                 const fst_node *b, fst_curve_end *end, fst_error *error)
 {
     const interval i = {family, sink, a, b, end};
+    if (!sink->special) /* nobody hears of the points: the end of the curve alone is looked for */
+        return fst_test_changes(a, b, FST_TEST_FOLD) ? report_turn(&i, error) : FST_OK;
     return a->s.segments > 0 && a->captures != b->captures ? report_grazing(&i, error)
                                                            : look_between(family, sink, a, b, end, error);
 }

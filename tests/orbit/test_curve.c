@@ -10,10 +10,11 @@
 /* LAPACK with a fault: the given number of times, it calls a system singular that holds the parameter fixed, as
  * at the border of the range. Such systems are known by a last row of zeros but for its last element. */
 static const fst_lapack *lapack;
-static int faults;
+static int faults, solves;
 
 static int faulty_solve(int n, int columns, double *a, double *b)
 {
+    solves += 1;
     int fixed = n == FST_TANGENT_SIZE + 1;
     for (int i = 0; i + 1 < n; ++i)
         fixed = fixed && a[(n - 1) * n + i] == 0.0;
@@ -107,19 +108,26 @@ static void a_border_out_of_reach(void **state)
     assert_true(p.nodes > 3 && p.last > 0.64 && p.last < 0.65);
 }
 
+static void search_for(const fst_params *params, fst_solution *once)
+{
+    fst_family still;
+    fst_orbit_outcome outcome;
+    fst_error error;
+    assert_int_equal(fst_family_begin(&still, params, NULL, &error), FST_OK);
+    assert_int_equal(fst_search_orbit(&still, once, &outcome, &error), FST_OK);
+}
+
 /* An orbit of twice the period that is close to the one that is gone round twice, as beside its birth (made up: a
  * state of the chain is moved by `apart`), is followed over omega. */
 static void follow_doubled(double apart, path *p, fst_curve *curve)
 {
     const fst_params params = scene_of(0.25, "rigid");
-    fst_family still, family;
-    fst_orbit_outcome outcome;
+    fst_family family;
     fst_solution once;
     fst_error error;
     fst_node start;
     memset(p, 0, sizeof *p);
-    assert_int_equal(fst_family_begin(&still, &params, NULL, &error), FST_OK);
-    assert_int_equal(fst_search_orbit(&still, &once, &outcome, &error), FST_OK);
+    search_for(&params, &once);
     assert_int_equal(fst_family_begin(&family, &params, "drive.omega", &error), FST_OK);
     fst_solution twice = {.period = 2.0 * fst_whole_period(&once), .value = 0.25};
     memcpy(twice.y[0], once.y[0], sizeof twice.y[0]);
@@ -133,6 +141,41 @@ static void follow_doubled(double apart, path *p, fst_curve *curve)
                          .longest_step = 0.5,
                          .sink = {p, 0, take_node, take_special}};
     assert_int_equal(fst_curve_follow(curve, &start, 1, &error), FST_OK);
+}
+
+/* Where nobody hears of special points, as on a trial, a curve has the same nodes and end, and none is located. */
+static void special_points_that_nobody_hears_of(void **state)
+{
+    (void)state;
+    const fst_params params = scene_of(0.3, "rigid");
+    fst_family family;
+    fst_solution once;
+    fst_error error;
+    fst_node start;
+    path p[2] = {{0}};
+    int needed[2];
+    search_for(&params, &once);
+    assert_int_equal(fst_family_begin(&family, &params, "drive.omega", &error), FST_OK);
+    once.value = 0.3;
+    once.on_section = 0;
+    assert_int_equal(fst_solution_correct(&family, &once, NULL, &error), FST_OK);
+    assert_int_equal(fst_node_make(&family, &once, &start, &error), FST_OK);
+    lapack = family.lapack;
+    fst_lapack counting = *lapack;
+    counting.solve = faulty_solve;
+    family.lapack = &counting;
+    for (int heard = 0; heard < 2; ++heard) {
+        fst_curve curve = {.family = &family,
+                           .from = 0.25,
+                           .to = 0.32,
+                           .longest_step = 0.5,
+                           .sink = {&p[heard], 0, take_node, heard ? take_special : NULL}};
+        solves = 0;
+        assert_int_equal(fst_curve_follow(&curve, &start, start.s.tangent.value > 0 ? -1 : 1, &error), FST_OK);
+        needed[heard] = solves;
+        printf("%d nodes to %g, %d solves, end %d\n", p[heard].nodes, p[heard].last, solves, curve.end.type);
+    }
+    assert_true(p[0].nodes == p[1].nodes && p[0].last == p[1].last && needed[0] < needed[1]);
 }
 
 /* A curve does not go on along an orbit of half its period, unless it has always done so. */
@@ -152,6 +195,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_border_is_reached_in_smaller_steps),
         cmocka_unit_test(a_border_out_of_reach),
+        cmocka_unit_test(special_points_that_nobody_hears_of),
         cmocka_unit_test(half_the_period_is_another_curve),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
