@@ -12,8 +12,9 @@
  *     approach     what blocks that came closer to the last one have added: approach_error()
  *     unseen       what all blocks may lack alike, because they end within a swing: unseen_of()
  *     tolerance    what the integration may have lost
+ *     halves       of chaos under dry friction: what the means of the window's halves differ by
  *
- * The error is the largest of the five: a limit that the mean of a motion without end is to keep, and two
+ * The error is the largest of these: a limit that the mean of a motion without end is to keep, and two
  * standard errors where chance alone moves the blocks.  Whether a drift means that a motion has not settled is
  * not decided here, but in study/drift.c.
  */

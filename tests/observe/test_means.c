@@ -102,6 +102,43 @@ static void test_errors_of_halves(void **unused)
     }
 }
 
+/* Such a motion has these errors, and no other one: a run of a few periods, chaotic by the exponent that it is told. */
+static void test_halves_of_chaos(void **unused)
+{
+    (void)unused;
+    for (int growth = 0; growth <= 100; growth += 100) {
+        fst_params p = bead_at(0.17, FST_DYNAMICS_RIGID);
+        fst_watched_run *run = test_calloc(1, sizeof *run);
+        fst_run_result plain, r;
+        fst_error error;
+        int over = 0, needs;
+        p.friction_law = FST_FRICTION_COULOMB;
+        p.friction_mu = 0.367;
+        p.run_rtol = 1e-8;
+        p.run_periods = 30.0;
+        p.run_discard = 10.0;
+        assert_int_equal(fst_watched_run_begin(run, &p, NULL, &error), FST_OK);
+        while (!over)
+            assert_int_equal(fst_watched_run_go_on(run, 1000, &over, &error), FST_OK);
+        const fst_mark_series *series = fst_window_series(&run->window, run->flow->t);
+        const fst_exponent exponent = {.duration = 1000.0, .value = growth / 1000.0, .standard_error = 1e-9};
+        fst_result_clear(&plain);
+        fst_means_fill(&run->window, series, &p, &plain);
+        fst_result_clear(&r);
+        assert_int_equal(fst_conclude(run, &exponent, &r, &needs, &error), FST_OK);
+        assert_int_equal(r.regime, growth ? FST_REGIME_CHAOTIC : FST_REGIME_LIBRATING);
+        if (growth) {
+            const double of_blocks = plain.mean_nz_error;
+            fst_means_widen(&run->window, series, &plain);
+            assert_true(plain.mean_nz_error > 1.1 * of_blocks);
+        }
+        assert_true(r.mean_r_error == plain.mean_r_error && r.mean_nz_error == plain.mean_nz_error &&
+                    r.mean_alpha_dot_error == plain.mean_alpha_dot_error);
+        fst_watched_run_free(run);
+        test_free(run);
+    }
+}
+
 /* Blocks that come closer to their limit in turns from either side, or first fast and then slowly: the error
  * covers the limit, and is no wider than some blocks of the approach. */
 static void test_errors_of_an_approach(void **unused)
@@ -306,6 +343,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_errors_from_the_scatter_of_blocks),
         cmocka_unit_test(test_errors_of_halves),
+        cmocka_unit_test(test_halves_of_chaos),
         cmocka_unit_test(test_errors_of_an_approach),
         cmocka_unit_test(test_errors_of_marks_that_differ),
         cmocka_unit_test(test_a_broken_balance_in_any_block),
