@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/order.h"
 
@@ -14,8 +15,12 @@ double follow_light_begin(follow_turning *t)
 {
     double parts[FOLLOW_MOST_POINTS], bright = 0.0;
     size_t inner = 0;
-    for (int i = 0; i < t->count; ++i)
+    memset(t->view, 0, sizeof t->view);
+    for (int i = 0; i < t->count; ++i) {
         bright += t->turns[i].bright / t->count;
+        for (int j = 0; j < 9; ++j)
+            t->view[j / 3][j % 3] += t->turns[i].view[j / 3][j % 3] / t->count;
+    }
     for (int k = 0; k < t->points; ++k) {
         double sum = 0.0, squares = 0.0;
         for (int i = 0; i < t->count; ++i) {

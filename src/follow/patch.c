@@ -196,6 +196,7 @@ fst_status follow_turning_place(follow_turning *turning, const follow_still *sti
                      row = t->row - turning->radius * t->shift[1];
         follow_plane_map(plane, column, row, &t->place[0], &t->place[1]);
         t->shrink = turning->radius / follow_camera_view(&camera, column, row, radius, t->view);
+        t->close = radius * t->view[2][2] / camera.place[2];
         sum += t->shrink;
     }
     if (!(fabs(sum / turning->count - 1.0) < MOST_OFF))

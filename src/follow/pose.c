@@ -39,6 +39,10 @@ void follow_slopes(follow_turning *t)
         }
 }
 
+/* Lines of sight converge on the camera, so that all points of the face lie nearer to its middle than parallel lines
+ * would have them.  The lamps stand still in the laboratory, while the camera sees the bead from another side at each
+ * place: inside of the face the light belongs to a direction in the laboratory, at the outline to a place in the
+ * picture. */
 void follow_face(follow_turning *t, const follow_turn *f)
 {
     for (int k = 0; k < t->points; ++k) {
@@ -47,12 +51,18 @@ void follow_face(follow_turning *t, const follow_turn *f)
         const double far = fmax(1.0, hypot(right, up) / LIMB);
         right /= far;
         up /= far;
-        const double front = sqrt(fmax(0.01, 1.0 - right * right - up * up));
+        const double across = right * right + up * up, front = sqrt(fmax(0.01, 1.0 - across)),
+                     nearer = 1.0 - f->close * front;
         const double *of[2] = {t->even, t->marked};
+        double by[2] = {-f->shift[0], -f->shift[1]};
         for (int i = 0; i < 3; ++i)
-            t->facing[k][i] = f->view[i][0] * right + f->view[i][1] * up + f->view[i][2] * front;
+            t->facing[k][i] = nearer * (f->view[i][0] * right + f->view[i][1] * up) +
+                              f->view[i][2] * (front + f->close * across);
+        for (int j = 0; j < 2 && hypot(t->grid[k][0], t->grid[k][1]) < FOLLOW_INNER; ++j)
+            by[j] = t->view[0][j] * t->facing[k][0] + t->view[1][j] * t->facing[k][1] +
+                    t->view[2][j] * t->facing[k][2] - t->grid[k][j];
         for (int i = 0; i < 2; ++i)
-            t->light[k][i] = of[i][k] - fst_dot(t->slopes[k][i], f->shift, 2);
+            t->light[k][i] = of[i][k] + fst_dot(t->slopes[k][i], by, 2);
     }
 }
 

@@ -38,6 +38,7 @@ typedef struct follow_turn {
     double bright;      /* gray levels of the plate behind the bead */
     double place[2];    /* mm */
     double view[3][3];  /* right, up, to the camera */
+    double close;       /* the radius of the bead over its distance from the camera */
     double shrink;      /* radii of the bead there that a radius of the patch is */
     double shift[2];    /* of its centre, to the right and up from that of the patch, in radii of the patch */
     follow_pose pose;
@@ -59,6 +60,7 @@ typedef struct follow_turning {
     double (*facing)[3];    /* of the frame at work: where on the front each point is, in the laboratory */
     double (*slopes)[2][2]; /* of `even` and `marked` at each point: to the right and up, in radii */
     double (*light)[2];     /* and `even` and `marked` of each point */
+    double view[3][3];      /* the mean of all */
     follow_sphere sphere;
 } follow_turning;
 

@@ -175,6 +175,7 @@ static void axes_of_marks(void **state)
 enum { FRAMES = 140, FINE = 40 };
 #define RADIUS 2.5
 #define STEP (1.0 / 240.0)
+#define DISTANCE 150.0 /* mm, of the camera over the origin */
 
 /* Its velocity (mm/s): it goes round, faster and slower. */
 static void velocity(double t, double v[2])
@@ -205,6 +206,9 @@ static void move(follow_turning *t)
         follow_turn *f = &t->turns[i];
         *f = (follow_turn){
             .frame = i, .good = 1, .time = STEP * i, .bright = 200.0, .shrink = 1.0, .view = STILL};
+        /* What points up turns towards the camera. */
+        fst_turn_by(f->view, (const double[3]){place[1] / DISTANCE, -place[0] / DISTANCE, 0.0});
+        f->close = RADIUS / DISTANCE;
         memcpy(f->place, place, sizeof place);
         memcpy(f->pose.turn, turn, sizeof turn);
         f->pose.gain = 1.0;
@@ -289,6 +293,19 @@ static void spins(void **state)
 
 /* ------------------------------------------------------------------ faces */
 
+/* Where on the bead's front a line of sight ends that starts at the camera, and crosses the plane through the bead's middle
+ * at (right, up). */
+static void see(const follow_turn *f, double right, double up, double facing[3])
+{
+    const double way[3] = {right * f->close, up * f->close, -1.0}, square = fst_dot(way, way, 3),
+                 half = 1.0 / f->close, /* of the equation of second degree whose lesser root is the front */
+        more = (1.0 / (f->close * f->close) - 1.0) * square,
+                 at = (half - sqrt(fmax(0.0, half * half - more))) / square;
+    const double seen[3] = {at * way[0], at * way[1], 1.0 / f->close + at * way[2]};
+    for (int i = 0; i < 3; ++i)
+        facing[i] = fst_dot(f->view[i], seen, 3);
+}
+
 /* Paint the faces: a lamp from the side, a highlight that stays where it is, noise, and the plate around. */
 static void paint_faces(follow_turning *t, double contrast)
 {
@@ -301,12 +318,11 @@ static void paint_faces(follow_turning *t, double contrast)
             double level = 0.0;
             for (int s = 0; s < 9; ++s) { /* a pixel sees a small area */
                 const double u = right + (s % 3 - 1) / 45.0, v = up + (double)(s / 3 - 1) / 45.0;
-                const double size = fmax(1.0, hypot(u, v) / 0.999),
-                             front = sqrt(fmax(0.0, 1.0 - (u * u + v * v) / (size * size)));
-                const double facing[3] = {u / size, v / size, front};
-                double point[3];
+                const double size = fmax(1.0, hypot(u, v) / 0.999);
+                double facing[3], point[3];
+                see(&t->turns[i], u / size, v / size, facing);
                 follow_on_bead((const double(*)[3])t->turns[i].pose.turn, facing, point);
-                const double light = 70.0 + 60.0 * (0.5 * facing[1] - 0.4 * facing[0] + 0.7 * front);
+                const double light = 70.0 + 60.0 * (0.5 * facing[1] - 0.4 * facing[0] + 0.7 * facing[2]);
                 level += light * (1.0 - contrast * (1.0 - paint(point, 1))) / 9.0;
             }
             if (hypot(right + 0.25, up - 0.3) < 0.15)
@@ -314,6 +330,24 @@ static void paint_faces(follow_turning *t, double contrast)
             level = cover * level + (1.0 - cover) * 200.0 + 2.0 * normal(&seed);
             t->levels[i * t->points + k] = (unsigned char)fmax(0.0, fmin(255.0, level + 0.5));
         }
+}
+
+/* The points of a face lie where its lines of sight end, but for the square of the radius over the distance. */
+static void lines_of_sight(void **state)
+{
+    (void)state;
+    follow_turning t;
+    begin(&t);
+    follow_face(&t, &t.turns[FRAMES - 1]);
+    for (int k = 0; k < t.points; ++k) {
+        double facing[3];
+        if (hypot(t.grid[k][0], t.grid[k][1]) > 0.9)
+            continue;
+        see(&t.turns[FRAMES - 1], t.grid[k][0], t.grid[k][1], facing);
+        for (int i = 0; i < 3; ++i)
+            CHECK_CLOSE(t.facing[k][i], facing[i], 2.0 * (RADIUS / DISTANCE) * (RADIUS / DISTANCE));
+    }
+    follow_turning_end(&t);
 }
 
 /* With the surface and the light learnt of all faces, rotations that were put wrong come back. */
@@ -346,7 +380,8 @@ static void faces(void **state)
         before += fst_dot(by, by, 3) / (3 * FRAMES);
         claimed += 1.0 / f->known[2][2] / FRAMES;
     }
-    print_message("rms %.3f degrees of %.3f\n", sqrt(squares) * 180.0 / FST_PI, sqrt(before) * 180.0 / FST_PI);
+    print_message("rms %.3f degrees of %.3f, claimed %.3f\n", sqrt(squares) * 180.0 / FST_PI,
+                  sqrt(before) * 180.0 / FST_PI, sqrt(claimed) * 180.0 / FST_PI);
     assert_true(sqrt(squares) < 1.5 * FST_PI / 180.0); /* half of what a film is to reach */
     assert_true(claimed > 0.0 && sqrt(claimed) < 0.02);
     follow_turning_end(&t);
@@ -369,11 +404,9 @@ static void no_marks(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rotation_vectors),
-        cmocka_unit_test(cameras),
-        cmocka_unit_test(axes_of_marks),
-        cmocka_unit_test(spins),
-        cmocka_unit_test(faces),
+        cmocka_unit_test(rotation_vectors), cmocka_unit_test(cameras),
+        cmocka_unit_test(axes_of_marks),    cmocka_unit_test(spins),
+        cmocka_unit_test(lines_of_sight),   cmocka_unit_test(faces),
         cmocka_unit_test(no_marks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
