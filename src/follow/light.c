@@ -7,6 +7,8 @@
 
 #include "base/order.h"
 
+enum { SHARPENED = 2 }; /* times */
+
 #define LEAST_PART 0.35  /* of the usual spread: a point that changes less is a highlight */
 #define LEAST_SIGMA 2e-3 /* of the plate's level */
 #define BESIDE 0.2       /* radii around a highlight that it may reach */
@@ -88,11 +90,15 @@ void follow_light_learn(follow_turning *t)
 void follow_surface_learn(follow_turning *t)
 {
     follow_sphere_clear(&t->sphere);
-    for (int i = 0; i < t->count; ++i)
-        if (t->turns[i].good) {
-            follow_face(t, &t->turns[i]);
-            follow_show(t, &t->turns[i]);
-        }
+    for (int time = 0; time <= SHARPENED; ++time) {
+        follow_sphere_clear(&t->rest);
+        for (int i = 0; i < t->count; ++i)
+            if (t->turns[i].good) {
+                follow_face(t, &t->turns[i]);
+                (time == 0 ? follow_show : follow_show_rest)(t, &t->turns[i]);
+            }
+        follow_sphere_sharpen(&t->sphere, &t->rest);
+    }
 }
 
 void follow_centre(follow_turning *t)

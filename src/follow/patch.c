@@ -30,8 +30,9 @@ fst_status follow_turning_begin(follow_turning *turning, double diameter, fst_er
     turning->slopes = calloc(FOLLOW_MOST_POINTS, sizeof *turning->slopes);
     turning->light = malloc(FOLLOW_MOST_POINTS * sizeof *turning->light);
     turning->used = malloc(FOLLOW_MOST_POINTS);
-    if (!follow_sphere_begin(&turning->sphere) || !turning->grid || !turning->even || !turning->facing ||
-        !turning->light || !turning->slopes || !turning->map || !turning->used)
+    if (!follow_sphere_begin(&turning->sphere) || !follow_sphere_begin(&turning->rest) || !turning->grid ||
+        !turning->even || !turning->facing || !turning->light || !turning->slopes || !turning->map ||
+        !turning->used)
         return fst_fail(error, FST_NO_MEMORY, "track", "no memory for the turning of a bead");
     for (int k = 0; k < FOLLOW_MOST_POINTS; ++k)
         turning->map[k] = -1;
@@ -70,6 +71,7 @@ void follow_turning_end(follow_turning *turning)
     free(turning->levels);
     free(turning->turns);
     free(turning->sphere.nodes);
+    free(turning->rest.nodes);
     *turning = (follow_turning){.count = 0};
 }
 

@@ -235,7 +235,7 @@ void follow_search(const follow_turning *t, const follow_turn *f, double reach, 
     }
 }
 
-void follow_show(follow_turning *t, const follow_turn *f)
+static void show(follow_turning *t, const follow_turn *f, int rest)
 {
     for (int k = 0; k < t->points; ++k) {
         double point[3], a;
@@ -243,14 +243,24 @@ void follow_show(follow_turning *t, const follow_turn *f)
         if (!t->used[k] || !(marked > 0.0) || hypot(t->grid[k][0], t->grid[k][1]) > FOLLOW_INNER)
             continue;
         follow_on_bead(f->pose.turn, t->facing[k], point);
-        const double value = (follow_seen(t, f, k) / f->pose.gain - t->light[k][0]) / marked;
-        double weight = scale * scale;
+        double value = (follow_seen(t, f, k) / f->pose.gain - t->light[k][0]) / marked, weight = scale * scale;
         if (follow_sphere_at(&t->sphere, point, &a, NULL)) {
             const double off = (value - a) * scale, part = 1.0 / (1.0 + off * off / CUT);
             weight *= part;
+            value -= rest ? a : 0.0;
         }
-        follow_sphere_add(&t->sphere, point, value, weight);
+        follow_sphere_add(rest ? &t->rest : &t->sphere, point, value, weight);
     }
+}
+
+void follow_show(follow_turning *t, const follow_turn *f)
+{
+    show(t, f, 0);
+}
+
+void follow_show_rest(follow_turning *t, const follow_turn *f)
+{
+    show(t, f, 1);
 }
 
 void follow_known(follow_turning *t, follow_turn *f)

@@ -25,8 +25,9 @@ void follow_search(const follow_turning *t, const follow_turn *f, double reach, 
 /* Move the centre of the frame to where its pose and its light fit best. */
 void follow_recentre(follow_turning *t, follow_turn *f, int steps);
 
-/* Add the face of the frame to the surface. */
+/* Add the face of the frame to the surface; or what the surface leaves of it to `rest`. */
 void follow_show(follow_turning *t, const follow_turn *f);
+void follow_show_rest(follow_turning *t, const follow_turn *f);
 
 /* What a frame alone knows of its rotation, once neither the gain nor the shift is known. */
 void follow_known(follow_turning *t, follow_turn *f);

@@ -58,6 +58,13 @@ void follow_sphere_add(follow_sphere *sphere, const double point[3], double valu
     }
 }
 
+void follow_sphere_sharpen(follow_sphere *sphere, const follow_sphere *rest)
+{
+    for (int k = 0; k < ALL; ++k)
+        if (rest->nodes[k].weight > 0.0F)
+            sphere->nodes[k].sum += rest->nodes[k].sum * (sphere->nodes[k].weight / rest->nodes[k].weight);
+}
+
 int follow_sphere_at(const follow_sphere *sphere, const double point[3], double *value, double slope[3])
 {
     double part[3], sum = 0.0, weight = 0.0, sums[3] = {0.0, 0.0, 0.0}, weights[3] = {0.0, 0.0, 0.0};

@@ -23,6 +23,9 @@ void follow_sphere_clear(follow_sphere *sphere);
 /* A value was seen at a point of the unit sphere. */
 void follow_sphere_add(follow_sphere *sphere, const double point[3], double value, double weight);
 
+/* Add what the sphere leaves of all that was seen: a mean over the cells around a point is blurred. */
+void follow_sphere_sharpen(follow_sphere *sphere, const follow_sphere *rest);
+
 /* The value at a point, and its gradient in space (NULL: not wanted).  Returns 0 where nothing was seen there. */
 int follow_sphere_at(const follow_sphere *sphere, const double point[3], double *value, double slope[3]);
 

@@ -57,11 +57,11 @@ typedef struct follow_turning {
     double *even, *marked, *spread,
         *sigma; /* of each point; its deviation from frame to frame, and from what is expected */
     unsigned char *used;
-    double (*facing)[3];    /* of the frame at work: where on the front each point is, in the laboratory */
-    double (*slopes)[2][2]; /* of `even` and `marked` at each point: to the right and up, in radii */
-    double (*light)[2];     /* and `even` and `marked` of each point */
-    double view[3][3];      /* the mean of all */
-    follow_sphere sphere;
+    double (*facing)[3];        /* of the frame at work: where on the front each point is, in the laboratory */
+    double (*slopes)[2][2];     /* of `even` and `marked` at each point: to the right and up, in radii */
+    double (*light)[2];         /* and `even` and `marked` of each point */
+    double view[3][3];          /* the mean of all */
+    follow_sphere sphere, rest; /* what was learnt of the surface, and what it leaves of the faces */
 } follow_turning;
 
 /* Prepare for a bead that is so many pixels wide.  FST_NO_MEMORY.  End it after a failure too. */
