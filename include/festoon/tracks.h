@@ -131,6 +131,7 @@ typedef struct fst_measurement {
                           the place on the plate */
     int64_t frames, lost; /* frames from the first to the last; how many of them are missing or were rejected */
     int64_t rejected, repeated; /* of these, rejected ones; frames that repeat the one before exactly */
+    int64_t left_out; /* frames at the beginning of which no number is, because the motion had not settled */
     /* What was fitted to the distance from the centre: wave_mean and the sum over k = 1, 2, ... of wave_cos[k -
      * 1] cos + wave_sin[k - 1] sin of 2 pi k wave_hz (t - wave_origin), t being the track's time (its frame
      * where it has none). */

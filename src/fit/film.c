@@ -43,7 +43,7 @@ fst_status fit_film_take(fit_film *f, const fst_track *track, const fst_measurem
         return fst_fail(error, FST_BAD_INPUT, "fst_track.length_unit",
                         "the track is in pixels: say how long one of them is");
     for (size_t i = 0; i < track->rows; ++i) {
-        if (track->flag[i] != FST_FRAME_SEEN || track->t[i] - track->t[0] < seen->settled_after_s)
+        if (track->flag[i] != FST_FRAME_SEEN || track->frame[i] - track->frame[0] < seen->left_out)
             continue;
         const double x = track->x[i] - seen->centre[0], y = track->y[i] - seen->centre[1];
         f->row[f->frames] = (int)i;

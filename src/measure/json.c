@@ -19,6 +19,7 @@ void measure_write(fst_json *json, const fst_measurement *measured)
     fst_json_integer(json, "lost", measured->lost);
     fst_json_integer(json, "rejected", measured->rejected);
     fst_json_integer(json, "repeated", measured->repeated);
+    fst_json_integer(json, "left_out", measured->left_out);
     fst_json_text(json, "motion",
                   measured->motion == FST_MOTION_UNKNOWN ? NULL : fst_motion_name(measured->motion));
     fst_json_text(json, "symmetry", fst_symmetry_name((fst_symmetry)measured->symmetry));

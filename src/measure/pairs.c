@@ -30,17 +30,18 @@ const char *fst_pairing_name(fst_pairing pairing)
 /* What is seen of a pair, over its frames. */
 typedef struct pair_work {
     const fst_track *tracks[2];
-    const fst_measurement *known[2];    /* NULL: not measured */
-    double centre[2], stretch[3], from; /* the first moment that counts */
-    double sums[PARTS][3];              /* weight, time and angle of each part */
-    double begin, end;                  /* s, or frames */
+    const fst_measurement *known[2]; /* NULL: not measured */
+    double centre[2], stretch[3];
+    int64_t from;          /* the first frame that counts */
+    double sums[PARTS][3]; /* weight, time and angle of each part */
+    double begin, end;     /* s, or frames */
 } pair_work;
 
 /* Centre and tilt: the means of what both beads tell. */
 static int find_centre(pair_work *w)
 {
     int count = 0;
-    w->from = -INFINITY;
+    w->from = INT64_MIN;
     w->stretch[0] = w->stretch[2] = 1.0;
     for (int k = 0; k < 2; ++k) {
         const fst_measurement *m = w->known[k];
@@ -51,9 +52,8 @@ static int find_centre(pair_work *w)
             w->centre[i] += (m->centre[i] - w->centre[i]) / count;
         for (int i = 0; i < 3; ++i)
             w->stretch[i] += (m->stretch[i] - w->stretch[i]) / count;
-        const fst_track *t = w->tracks[k];
-        if (m->settled_after_s > 0.0 && isfinite(t->t[0]))
-            w->from = fmax(w->from, t->t[0] + m->settled_after_s);
+        const int64_t from = w->tracks[k]->frame[0] + m->left_out;
+        w->from = from > w->from ? from : w->from;
     }
     return count;
 }
@@ -72,7 +72,7 @@ static int next_row(const pair_work *w, size_t row[2])
     while (row[0] < a->rows && row[1] < b->rows) {
         const int64_t off = a->frame[row[0]] - b->frame[row[1]];
         if (off == 0 && a->flag[row[0]] == FST_FRAME_SEEN && b->flag[row[1]] == FST_FRAME_SEEN &&
-            !(a->t[row[0]] < w->from))
+            a->frame[row[0]] >= w->from)
             return 1;
         row[0] += off <= 0;
         row[1] += off >= 0;

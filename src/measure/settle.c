@@ -136,5 +136,6 @@ void measure_tell_settled(const measure_work *work, fst_measurement *measured)
     else if (work->first > 0)
         measure_warn(measured, "the motion settles first: %.4g %s are left out at the beginning, of %.4g", from,
                      unit, from + measure_duration(work));
+    measured->left_out = work->track->frame[work->first] - work->track->frame[0];
     measured->settled_after_s = work->drifts || (work->first > 0 && !timed) ? NAN : from;
 }

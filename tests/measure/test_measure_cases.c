@@ -5,6 +5,8 @@
  * labels: numbers */
 #include "measure_coverage.h"
 
+#include <stdlib.h>
+
 /* The settled motion at a drive, followed for so many seconds. */
 static made_motion motion_at(double hertz, double seconds)
 {
@@ -144,6 +146,28 @@ static void test_fading_festoons(void **state)
     }
 }
 
+/* Of the same film without a clock as many frames are left out, of the angle between two beads too; when that was is not
+ * known. */
+static void without_a_clock(const fst_track *track, const fst_measurement *clocked)
+{
+    fst_track bare[2] = {*track, *track};
+    fst_measure_options options = fst_default_measure_options();
+    fst_beads_measurement m;
+    fst_error error;
+    double *none = malloc(track->rows * sizeof *none);
+    for (size_t i = 0; i < track->rows; ++i)
+        none[i] = NAN;
+    for (int k = 0; k < 2; ++k) {
+        bare[k].t = none;
+        bare[k].fps = NAN;
+    }
+    assert_int_equal(fst_measure_tracks(bare, 2, &options, &m, &error), FST_OK);
+    assert_int_equal(m.beads[0].left_out, clocked->left_out);
+    assert_true(clocked->left_out == 0 ? m.beads[0].settled_after_s == 0.0 : isnan(m.beads[0].settled_after_s));
+    assert_in_range(m.pairs[0].frames, 1, clocked->frames - clocked->left_out);
+    free(none);
+}
+
 /* A film that begins with the motion: what comes before it has settled is left out, or nothing has an error; of a
  * settled one nothing is left out. */
 static void test_transients(void **state)
@@ -183,7 +207,9 @@ static void test_transients(void **state)
         } else {
             assert_as(&m, &settled, film.scale);
             assert_true(m.settled_after_s > films[i].from && m.settled_after_s < films[i].to);
+            assert_true(fabs((double)m.left_out - m.settled_after_s * m.fps) < 1.5);
         }
+        without_a_clock(&track, &m);
         fst_track_free(&track);
         film = made_film_plain();
         film.seconds = 0.9;
