@@ -146,6 +146,13 @@ static void widen_for_exposure(const measure_work *work, const measure_drive *dr
     measured->mean_r_error = hypot(measured->mean_r_error, apart * bends * measured->mean_r);
 }
 
+/* How many frames a time of exposure is no file without a clock tells. */
+static void forget_blurred(fst_measurement *measured)
+{
+    measure_warn(measured, "the exposure cannot be undone without a clock: give the frame rate");
+    measured->std_r = measured->std_r_error = measured->mean_r_error = NAN;
+}
+
 /* ---------------------------------------------------------------- the whole */
 
 /* Whether every second festoon is alike cannot be told. */
@@ -217,6 +224,8 @@ static fst_status measure(measure_work *work, const fst_measure_options *options
         forget_festoons(work, measured, drive.fades);
     if (status == FST_OK && work->exposure > 0)
         widen_for_exposure(work, &drive, lost, measured);
+    if (status == FST_OK && options->exposure > 0 && isnan(measured->fps))
+        forget_blurred(measured);
     if (status == FST_OK && drive.standing)
         measured->std_r = NAN;
     if (status == FST_OK && measured->wave_mean < 3.0 * measured->noise)

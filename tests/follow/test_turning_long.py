@@ -76,9 +76,10 @@ class Turning(films.OnFilms):
         print(f"n in {len(angles)} of {len(found['n'])} frames, rms {rms(angles):.2f} degrees; |V| median "
               f"{relative[len(relative) // 2]:.3f}, rms {rms(relative):.3f}; V off by {rms(offs):.4f} v; shares {shares}")
         self.assertGreater(len(angles), 0.95 * len(found["n"]))
-        self.assertLess(rms(angles), 3.0)
+        self.assertLess(rms(angles), 0.7)
         self.assertGreater(sum(angle < 3.0 for angle in angles), 0.95 * len(angles))
-        self.assertLess(relative[len(relative) // 2], 0.1)
+        self.assertLess(relative[len(relative) // 2], 0.05)
+        self.assertLess(rms(relative), 0.1)
         for share in shares.values():
             self.assertGreater(share[0], 0.55 * share[1])
             self.assertLess(share[0], 0.98 * share[1])

@@ -28,7 +28,7 @@ typedef struct made_film {
     double tilt, along; /* degrees; direction in the picture that the tilt leaves alone */
     double exposure;    /* s */
     double lost, wild;  /* share of frames that are missing, and of places that are anywhere */
-    double clock;       /* times are this many times too long */
+    double clock;       /* times are this many times too long; NAN: there are none */
     int mirrored;
     uint64_t seed;
 } made_film;

@@ -28,10 +28,17 @@ static void test_settling_films(void **state)
     check_settling_coverage(MOTIONS, 300);
 }
 
+static void test_clockless_films(void **state)
+{
+    (void)state;
+    check_clockless_coverage(MOTIONS, 1000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_500_films), cmocka_unit_test(test_short_films),
                                        cmocka_unit_test(test_coarse_films),
-                                       cmocka_unit_test(test_settling_films)};
+                                       cmocka_unit_test(test_settling_films),
+                                       cmocka_unit_test(test_clockless_films)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
