@@ -288,7 +288,7 @@ static int was_ejected(const beads_seen *seen, fst_beads_result *result)
         if (seen->gone[i]) {
             result->outcome = FST_BEADS_EJECTED;
             (void)snprintf(result->reason, sizeof result->reason, "bead %d passed the plate's edge at t = %.6g",
-                           i, seen->ejected[i]);
+                           i + 1, seen->ejected[i]);
             return 1;
         }
     return 0;
@@ -305,7 +305,7 @@ static int has_settled(const beads_seen *seen, const beads_moment at[3], int num
                      scale = number == X ? radius * seen->world->omega : fmax(result->beads[i].mean_r, radius);
         if (fabs(second - first) > UNSETTLED * scale) {
             (void)snprintf(result->reason, sizeof result->reason,
-                           "bead %d has not settled: its mean %s goes from %.4g to %.4g in the window", i,
+                           "bead %d has not settled: its mean %s goes from %.4g to %.4g in the window", i + 1,
                            number == R   ? "r"
                            : number == X ? "velocity along the wave"
                                          : "height",

@@ -43,9 +43,9 @@ static fst_status check_same(const fst_params *beads, int count, fst_error *erro
             if (!is_of_bead(key) && !follows_bead(key) && strcmp(first, other) != 0)
                 return fst_fail(
                     error, FST_BAD_INPUT, key,
-                    "%s differs between bead 0 and bead %d: beads of one plate may differ in bead.* "
+                    "%s differs between bead 1 and bead %d: beads of one plate may differ in bead.* "
                     "and start.* alone",
-                    key, bead);
+                    key, bead + 1);
         }
     return FST_OK;
 }
@@ -74,7 +74,7 @@ static fst_status check_kinds(const fst_params *p, int bead, fst_error *error)
             "choose magnet.shape lines or parts");
     if (p->bead_material != FST_MATERIAL_HARD)
         return fst_fail(error, FST_BAD_INPUT, "bead.material",
-                        "bead %d: several beads are hard magnets so far: bead.material must be hard", bead);
+                        "bead %d: several beads are hard magnets so far: bead.material must be hard", bead + 1);
     return FST_OK;
 }
 
@@ -119,14 +119,14 @@ static fst_status check_apart(const beads_world *world, const double *state, fst
         int at_magnet;
         if (gap < -OVERLAP)
             return fst_fail(error, FST_BAD_INPUT, "start", "bead %d starts %g l below its place on the plate",
-                            i, -gap);
+                            i + 1, -gap);
         if (beads_way_out(world, i, state, &at_magnet) <= 0)
             return fst_fail(error, FST_BAD_INPUT, "start.position",
                             at_magnet
                                 ? "bead %d starts inside the magnet, or touches it: its centre must be farther "
                                   "from it than its radius of %g l"
                                 : "bead %d, of the radius %g l, starts beyond plate.radius",
-                            i, world->body[i].radius);
+                            i + 1, world->body[i].radius);
         for (int j = i + 1; j < world->count; ++j) {
             double d[3];
             beads_way(world, state, i, j, d);
@@ -137,7 +137,7 @@ static fst_status check_apart(const beads_world *world, const double *state, fst
                     error, FST_BAD_INPUT, "start",
                     "beads %d and %d overlap at the start: their centres are %g l apart, and the sum of their "
                     "radii is %g l",
-                    i, j, distance, reach);
+                    i + 1, j + 1, distance, reach);
         }
     }
     return FST_OK;
@@ -184,9 +184,9 @@ static fst_status add_body(int i, const fst_groups *first, fst_model *model, bea
     if (!isnan(g.field_unit) && !(fabs(g.field_unit - first->field_unit) <= 1e-9 * first->field_unit))
         return fst_fail(
             error, FST_BAD_INPUT, "bead.moment",
-            "the moments of beads 0 and %d and their kappa give two values of B0, %g and %g T: give "
+            "the moments of beads 1 and %d and their kappa give two values of B0, %g and %g T: give "
             "magnet.b0",
-            i, first->field_unit, g.field_unit);
+            i + 1, first->field_unit, g.field_unit);
     const fst_status status = fst_start(&model->params, model, height, &start, error);
     memcpy(bead, start.x, sizeof start.x);
     memcpy(bead + BEADS_V, start.v, sizeof start.v);

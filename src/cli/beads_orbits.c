@@ -36,7 +36,7 @@ static void print_locked(FILE *out, const fst_beads_locked *l)
                   "load (weights)");
     for (int i = 0; i < l->count; ++i) {
         const double *n = l->state[i] + 6;
-        (void)fprintf(out, "  %4d %14.10f %10.4f %14.10f  %8.5f %8.5f %8.5f %14.7g\n", i, l->r[i],
+        (void)fprintf(out, "  %4d %14.10f %10.4f %14.10f  %8.5f %8.5f %8.5f %14.7g\n", i + 1, l->r[i],
                       isfinite(l->phi_deg[i]) ? unsigned_zero(l->phi_deg[i], 4) : 0.0,
                       unsigned_zero(l->height[i], 10), unsigned_zero(n[0], 5), unsigned_zero(n[1], 5),
                       unsigned_zero(n[2], 5), unsigned_zero(l->load_weights[i], ALL_DIGITS));
@@ -45,7 +45,7 @@ static void print_locked(FILE *out, const fst_beads_locked *l)
     for (int k = 0; k < l->touch_count; ++k)
         if (l->touches[k].beads[1] >= 0)
             (void)fprintf(out, "  beads %d and %d press each other with %.10g l gamma^2\n",
-                          l->touches[k].beads[0], l->touches[k].beads[1], l->touches[k].force);
+                          l->touches[k].beads[0] + 1, l->touches[k].beads[1] + 1, l->touches[k].force);
     (void)fprintf(out, "  power of the drive %.10g l^2 gamma^3%s\n", unsigned_zero(l->power, ALL_DIGITS),
                   l->forces_unique ? ""
                                    : "; the contacts are more than the directions: the forces are one choice");
@@ -82,7 +82,7 @@ static void print_orbit(FILE *out, const fst_beads_orbit *o)
                   o->stable ? "stable" : "unstable");
     (void)fprintf(out, "  period                    %.12g 1/gamma\n", o->period);
     for (int i = 0; i < o->count; ++i)
-        (void)fprintf(out, "  bead %d: <r>, <alpha'>     %.12g l, %.12g gamma\n", i, o->mean_r[i],
+        (void)fprintf(out, "  bead %d: <r>, <alpha'>     %.12g l, %.12g gamma\n", i + 1, o->mean_r[i],
                       unsigned_zero(o->mean_alpha_dot[i], ALL_DIGITS));
     (void)fprintf(out, "  power of the drive        %.10g l^2 gamma^3\n", o->drive_power);
     print_pairs(out, o->exchanges ? "multipliers of half a turn, beads exchanged" : "multipliers",

@@ -42,7 +42,7 @@ static void print_groups_table(const page *p, const fst_beads_result *result)
             const size_t used = strlen(members);
             const int fits = used + 12 < sizeof members;
             (void)snprintf(members + used, sizeof members - used, fits ? "%s%d" : "%s...", k ? " " : "",
-                           group->members[k]);
+                           group->members[k] + 1);
             if (!fits)
                 break;
         }
@@ -62,7 +62,7 @@ static void print_beads_table(const page *p, const fst_beads_result *result)
                   p->length_unit);
     for (int i = 0; i < result->count; ++i) {
         const fst_bead_result *bead = &result->beads[i];
-        (void)fprintf(p->out, "  %-5d %-17s", i, fst_regime_name(bead->regime));
+        (void)fprintf(p->out, "  %-5d %-17s", i + 1, fst_regime_name(bead->regime));
         print_cell(p, 10, bead->mean_r * p->length);
         print_cell(p, 12, bead->mean_alpha_dot * p->rate);
         print_cell(p, 10, bead->mean_load_weights);

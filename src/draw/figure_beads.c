@@ -145,7 +145,7 @@ static fst_status put_paths(painting *p, const fst_figure_options *options, doub
     for (int first = 0; first < beads && first < FST_BEADS_MOST && status == FST_OK; ++first) {
         pen to = {.x = NULL};
         char words[32];
-        (void)snprintf(words, sizeof words, "bead %d", first);
+        (void)snprintf(words, sizeof words, "bead %d", first + 1);
         const char *title = beads > FST_BEADS_MOST ? NULL : fst_chart_text(p->chart, words);
         for (int bead = first; bead < beads && status == FST_OK; bead += FST_BEADS_MOST)
             status = add_path(p, bead, options, &to, reach, y_label, error);

@@ -75,7 +75,7 @@ static int put_gaps(series *s, fst_chart_panel *panel, const char *unit)
     for (int i = 0; i < count && curves; ++i) {
         double *y = fst_chart_keep(s->chart, s->points * sizeof *y);
         char name[NAME_SIZE];
-        (void)snprintf(name, sizeof name, "bead %d", i);
+        (void)snprintf(name, sizeof name, "bead %d", i + 1);
         if (!y)
             return 0;
         for (size_t k = 0; k < s->points; ++k) {
@@ -151,8 +151,8 @@ static int put_contacts(series *s, fst_chart_panel *panel, int *count)
             return 0;
         if (curves[*count].count == 0)
             continue;
-        (void)snprintf(tics + strlen(tics), NAME_SIZE, "%s'%d–%d' %d", *count ? ", " : "(", s->pairs[pair][0],
-                       s->pairs[pair][1], *count + 1);
+        (void)snprintf(tics + strlen(tics), NAME_SIZE, "%s'%d–%d' %d", *count ? ", " : "(",
+                       s->pairs[pair][0] + 1, s->pairs[pair][1] + 1, *count + 1);
         ++*count;
     }
     (void)strcat(tics, *count ? ")" : "");
@@ -177,11 +177,11 @@ static fst_status put_loads(series *s, fst_shown_units units, fst_chart_panel *p
         const fst_status status = fst_params_of_bead(&s->table->scene, bead, &alone, error);
         double *y = fst_chart_keep(s->chart, s->points * sizeof *y);
         char name[NAME_SIZE];
-        (void)snprintf(name, sizeof name, "bead %d", bead);
+        (void)snprintf(name, sizeof name, "bead %d", bead + 1);
         const char *title = fst_chart_text(s->chart, name);
         if (status != FST_OK || !y || !title || !curves)
             return status == FST_OK ? no_memory(error) : status;
-        mass = bead ? mass : fst_bead_mass(&alone); /* forces are per mass of bead 0 */
+        mass = bead ? mass : fst_bead_mass(&alone); /* forces are per mass of the first bead */
         const fst_quantity shown =
             fst_quantity_of_column(&(fst_column_info){"load", "l gamma^2", ""}, units, &alone);
         const double factor = shown.factor * mass / fst_bead_mass(&alone);
@@ -235,7 +235,7 @@ static int name_pairs(series *s)
     for (int a = 0; a < s->table->count; ++a)
         for (int b = a + 1; b < s->table->count; ++b) {
             char name[NAME_SIZE];
-            (void)snprintf(name, sizeof name, "beads %d and %d", a, b);
+            (void)snprintf(name, sizeof name, "beads %d and %d", a + 1, b + 1);
             s->pairs[s->pair_count][0] = a;
             s->pairs[s->pair_count][1] = b;
             if (!(s->names[s->pair_count++] = fst_chart_text(s->chart, name)))

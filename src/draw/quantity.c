@@ -180,7 +180,7 @@ fst_quantity fst_quantity_of_parameter(const char *key, fst_shown_units units, c
     if (part >= 0)
         part_words(key, part, words, sizeof words);
     else if (bead >= 0)
-        (void)snprintf(words, sizeof words, "%.60s of bead %d", strrchr(key, '.') + 1, bead);
+        (void)snprintf(words, sizeof words, "%.60s of bead %d", strrchr(key, '.') + 1, bead + 1);
     else
         find_words(parameters, sizeof parameters / sizeof parameters[0], key, 0, words, sizeof words);
     if (strcmp(key, "drive.frequency") == 0)

@@ -36,9 +36,10 @@ static const fst_column_info of_a_bead[OF_A_BEAD] = {
     {"WY", "gamma", "angular velocity, component as of Y"},
     {"WZ", "gamma", "angular velocity, vertical component"},
     {"load", "l gamma^2",
-     "force on the plate per mass of bead 0; not a number where the bead does not touch it"}};
+     "force on the plate per mass of the first bead; not a number where the bead does not touch it"}};
 static const fst_column_info of_a_pair = {
-    "force", "l gamma^2", "force between the two per mass of bead 0; not a number where they do not touch"};
+    "force", "l gamma^2",
+    "force between the two per mass of the first bead; not a number where they do not touch"};
 
 typedef struct column_list {
     int beads, count;

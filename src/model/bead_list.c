@@ -26,8 +26,8 @@ fst_status fst_bead_may_set(fst_params *params, int bead, fst_error *error)
     if (bead > count)
         return fst_fail(
             error, FST_BAD_INPUT, "beads",
-            "beads[%d]: the scene lists %d bead%s, so there is no bead %d: a key of beads[%d] adds one", bead,
-            count, count == 1 ? "" : "s", bead, count);
+            "beads[%d]: the scene lists %d bead%s, counted from beads[0]: a key of beads[%d] adds one", bead,
+            count, count == 1 ? "" : "s", count);
     if (bead == count) {
         params->beads[bead] = fst_bead_says_nothing();
         ++params->bead_count;
@@ -50,7 +50,8 @@ fst_status fst_params_of_bead(const fst_params *params, int bead, fst_params *al
     const fst_bead_params *own = fst_bead_own(params, bead);
     fst_params said = *params;
     if (!own)
-        return fst_fail(error, FST_BAD_INPUT, "beads", "the scene lists %d beads, and none is number %d",
+        return fst_fail(error, FST_BAD_INPUT, "beads",
+                        "the scene lists %d beads, counted from beads[0], and beads[%d] is none of them",
                         params->bead_count, bead);
     said.beads[0] = *own;
     fst_status status = fst_params_settle(&said, error);

@@ -231,7 +231,7 @@ static fst_status check_beads(const fst_params *params, fst_error *error)
         if (check_one(&alone, &why) == FST_OK)
             continue;
         if (++struck == params->bead_count || bead_gives(params, bead, why.where))
-            return fst_fail(error, FST_BAD_INPUT, why.where, "bead %d: %s", bead, why.sentence);
+            return fst_fail(error, FST_BAD_INPUT, why.where, "bead %d: %s", bead + 1, why.sentence);
     }
     return params->bead_count == 1 ? check_alone(params, error) : FST_OK;
 }

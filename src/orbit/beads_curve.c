@@ -147,9 +147,9 @@ static fst_status end_at_contact(beads_curve *t, int test, fst_branch_end *end, 
         (void)beads_lock_least_gap(&t->world, &t->next.lock, &which);
     const beads_contact *c = &t->world.contact[which];
     if (c->second < 0)
-        (void)snprintf(bodies, sizeof bodies, "bead %d and the plate", c->first);
+        (void)snprintf(bodies, sizeof bodies, "bead %d and the plate", c->first + 1);
     else
-        (void)snprintf(bodies, sizeof bodies, "beads %d and %d", c->first, c->second);
+        (void)snprintf(bodies, sizeof bodies, "beads %d and %d", c->first + 1, c->second + 1);
     (void)snprintf(reason, sizeof reason,
                    test == FORCE ? "the force between %s falls to 0 at %.12g" : "%s meet at %.12g", bodies,
                    t->middle.value);

@@ -84,7 +84,7 @@ static fst_status try_newton(search *s, beads_cycle *cycle)
                 {BEADS_CLOSES, 1, 2}};
     fst_status status = fst_fail(
         &s->why, FST_NO_CONVERGENCE, "orbit",
-        "contacts between beads, or with the plate, keep opening and closing, or bead 0 does not turn");
+        "contacts between beads, or with the plate, keep opening and closing, or bead 1 does not turn");
     for (int i = 0; i < 3 && s->passages >= 3 && status != FST_OK && status != FST_NO_MEMORY; ++i)
         if (ways[i].may)
             status = try_closing(s, ways[i].closing, s->passed[0] - s->passed[ways[i].passages], cycle);

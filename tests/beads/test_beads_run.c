@@ -336,7 +336,7 @@ static void test_ejected(void **unused)
     assert_int_equal(r->beads[0].regime, FST_REGIME_EJECTED);
     assert_true(r->beads[0].ejected_at > 0 && r->beads[0].ejected_at < 1 && isnan(r->beads[0].mean_r));
     assert_true(isnan(r->beads[1].ejected_at) && r->beads[1].mean_r > 0.3 && r->group_count == 1);
-    CHECK_CONTAINS(r->reason, "bead 0 passed the plate's edge");
+    CHECK_CONTAINS(r->reason, "bead 1 passed the plate's edge");
     CHECK_CLOSE(r->energy_residual, 0, 1e-9);
 }
 
@@ -362,7 +362,7 @@ static void test_refused(void **unused)
     fst_params beads[9];
     fst_beads_options options = fst_default_beads_options();
     two_beads(5, beads);
-    check_refused(beads, 2, NULL, "beads 0 and 1 overlap at the start");
+    check_refused(beads, 2, NULL, "beads 1 and 2 overlap at the start");
     check_refused(beads, 9, NULL, "9 beads: the method exact takes 1 to 8");
     two_beads(180, beads);
     options.pair_rate = -1;
@@ -370,13 +370,13 @@ static void test_refused(void **unused)
     options.cookie = 0;
     check_refused(beads, 2, &options, "never initialised");
     beads[1].drive_frequency = 31;
-    check_refused(beads, 2, NULL, "drive.frequency differs between bead 0 and bead 1");
+    check_refused(beads, 2, NULL, "drive.frequency differs between bead 1 and bead 2");
     for (int i = 0; i < 2; ++i)
         beads[i].friction_law = FST_FRICTION_ROLLING;
     check_refused(beads, 2, NULL, "friction.law must be viscous, coulomb or none");
     two_beads(180, beads);
     beads[1].bead_material = FST_MATERIAL_MIXED;
-    check_refused(beads, 2, NULL, "bead 1: several beads are hard magnets");
+    check_refused(beads, 2, NULL, "bead 2: several beads are hard magnets");
     two_beads(180, beads);
     beads[0].model_dynamics = FST_DYNAMICS_FARAGO2020;
     check_refused(beads, 2, NULL, "model.dynamics must be rigid");

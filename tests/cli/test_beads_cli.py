@@ -106,6 +106,11 @@ class Runs(Beads):
             self.assertIn(word, text)
         text = self.good("run", self.scene(bar(2)), "--set", "run.periods=60", "--set", "run.discard=59")
         self.assertEqual(text.splitlines()[0], "a pair turns with the magnet about the axis")
+        self.assertRegex(text, r"(?m)^  pair     1 2 ")  # people count from 1, keys and JSON from 0
+        self.assertRegex(text, r"(?m)^  1     locked (.|\n)*^  2     locked ")
+        locked = self.good("locked", self.scene(bar(2)))
+        self.assertRegex(locked, r"(?m)^     1   [\d.]+ (.|\n)*^     2   [\d.]+ ")
+        self.assertIn("beads 1 and 2 press each other", locked)
 
     def test_one_bead_as_a_list_is_the_single_bead(self):
         alone = json.loads(self.good("run", "--json", "--set", "run.periods=20", "--set", "run.rtol=1e-12"))
@@ -203,7 +208,7 @@ class Refused(Beads):
 
     def test_what_cannot_be(self):
         self.says("overlap at the start", "beads: [{}, {}]\n")
-        self.says("beads 0 and 1", "beads:\n  - start.phi: 3\n  - start.phi: 5\n")
+        self.says("beads 1 and 2", "beads:\n  - start.phi: 3\n  - start.phi: 5\n")
         self.says("at most 8 beads, and the scene lists 100: choose stepping", "beads: [" + ", ".join(["{}"] * 100) + "]\n")
         self.says("more than 1000 beads", "beads: [" + ", ".join(["{}"] * 1001) + "]\n")
         self.says("choose stepping", OPPOSITE, "--set", "run.step=1e-5")

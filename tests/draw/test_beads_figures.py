@@ -127,7 +127,7 @@ class Beads(unittest.TestCase):
 
     def test_groups_before_the_discard(self):
         _, curves = self.plot("--kind", "groups", "--to", 0.5)
-        self.assertEqual(curves["beads 0 and 1"][0][1][0][-1][0], 0.5)
+        self.assertEqual(curves["beads 1 and 2"][0][1][0][-1][0], 0.5)
 
     def test_groups(self):
         """Gaps are those of the states, bars those of the forces, loads in the weights of their own beads."""
@@ -138,7 +138,7 @@ class Beads(unittest.TestCase):
         self.assertIn("set label 'gap (mm)'", script)
         pairs = ((0, 1), (0, 2), (1, 2))
         for a, b in pairs:
-            (_, gaps), = curves[f"beads {a} and {b}"]
+            (_, gaps), = curves[f"beads {a + 1} and {b + 1}"]
             for row, (turns, gap) in zip(self.rows, gaps[0]):
                 self.assertAlmostEqual(turns, row["drive_turns"], 7)
                 self.assertAlmostEqual(gap, 23 * self.gap(row, a, b), 5)
@@ -151,7 +151,7 @@ class Beads(unittest.TestCase):
             for row in self.rows:
                 inside = any(low - 1e-9 <= row["drive_turns"] <= high + 1e-9 for low, high in spans)
                 self.assertEqual(inside, not math.isnan(row["force_%d_%d" % pair]))
-            self.assertIn(f"'{pair[0]}–{pair[1]}' {place}", script)
+            self.assertIn(f"'{pair[0] + 1}–{pair[1] + 1}' {place}", script)
         weight = LENGTH * GAMMA ** 2 / GRAVITY
         for bead in range(3):
             (_, loads), = curves[f"bead {bead}"]
@@ -252,7 +252,7 @@ class Beads(unittest.TestCase):
             for options, shown in ((), rows), (("--from", 0.5, "--to", 1.5), some):
                 script, curves = self.plot(*options, name="drive.csv")
                 self.assertNotIn("anticlockwise", script)
-                (_, pieces), = curves["bead 0"]
+                (_, pieces), = curves["bead 1"]
                 for point, row in ((pieces[0][0], shown[0]), (pieces[-1][-1], shown[-1])):
                     self.assertAlmostEqual(math.hypot(*point), 23 * math.hypot(row["X_0"], row["Y_0"]), delta=1e-3, msg=words)
 

@@ -132,7 +132,7 @@ static void effects(void **unused)
     assert_int_equal(fst_params_check_effects(&p, &error), FST_OK);
     set(&p, "beads[1].bead.a", "2");
     assert_int_equal(fst_params_check_effects(&p, &error), FST_BAD_INPUT);
-    assert_non_null(strstr(error.sentence, "bead 1: bead.a"));
+    assert_non_null(strstr(error.sentence, "bead 2: bead.a"));
     fst_bead_params many[9];
     for (int i = 0; i < 9; ++i)
         many[i] = p.beads[0];
