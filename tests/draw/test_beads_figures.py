@@ -79,7 +79,7 @@ class Beads(unittest.TestCase):
     def check_paths(self, words, shown, lab, unit):
         script, curves = self.plot(*words)
         for bead in range(3):
-            (_, pieces), = curves[f"bead {bead}"]
+            (_, pieces), = curves[f"bead {bead + 1}"]
             self.assertEqual(len(pieces), 1)
             points = pieces[0]
             self.assertGreater(len(points), len(shown))
@@ -154,7 +154,7 @@ class Beads(unittest.TestCase):
             self.assertIn(f"'{pair[0] + 1}–{pair[1] + 1}' {place}", script)
         weight = LENGTH * GAMMA ** 2 / GRAVITY
         for bead in range(3):
-            (_, loads), = curves[f"bead {bead}"]
+            (_, loads), = curves[f"bead {bead + 1}"]
             shown = {round(turns, 6): load for piece in loads for turns, load in piece}
             wanted = {round(row["drive_turns"], 6): row[f"load_{bead}"] for row in self.rows
                       if not math.isnan(row[f"load_{bead}"])}
