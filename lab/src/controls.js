@@ -2,7 +2,8 @@
  * value with a unit, and where it makes sense a slider; what the library refuses is said below, in its own words. */
 
 import { STATUS } from "./core.js";
-import { plainOf, say, shown, T } from "./texts.js";
+import { told, toldPlace, write } from "./said.js";
+import { plainOf, say, shown, T, Told } from "./texts.js";
 
 /* Where sliders begin and end, in the unit that is shown; other rows go from a quarter to four times their default. */
 const SLIDERS = {
@@ -39,12 +40,14 @@ const plain = (value) => String(Number(value.toPrecision(8)));
 /* Whether the browser refused memory: to the library, to a new instance of it, or to a script. */
 const isMemory = (error) => error.status === STATUS.NO_MEMORY || /out of memory|allocation failed|could not allocate/i.test(error.message || "");
 
-/* What the library says, without the names of C. */
+/* What the library says, without the names of C, in the language of the page; what a browser says is left as it is. */
 export function sentence(error) {
     if (isMemory(error))
         return T.noMemory;
+    if (error instanceof Told)
+        return error.message;
     const words = (error.message || String(error)).replace(/\s*\((?:fst_\w+\(\)|festoon schema)[^)]*\)/g, "");
-    return error.where && !words.startsWith(error.where) ? `${error.where}: ${words}` : words;
+    return error.where && !/^fst_/.test(error.where) && !words.includes(error.where) ? say(T.pair, { name: toldPlace(error.where), value: told(words) }) : told(words);
 }
 
 export class Controls {
@@ -80,7 +83,7 @@ export class Controls {
     row(info) {
         const id = `p-${info.key.replace(/\W/g, "-")}`, [unit, factor] = SHOWN[info.unit] || ["", 1];
         const name = T.names[info.key] || info.key, label = element("label", { for: id, title: info.key }, name.replace(/ (?=\S\S?$)/, "\u00a0"));
-        const error = element("p", { class: "error", lang: "en", id: `${id}-error`, role: "alert" });
+        const error = element("p", { class: "error", id: `${id}-error`, role: "alert" });
         const help = element("p", { class: "help", id: `${id}-help`, lang: "en" }, `${info.key}: ${info.doc}`); // the library's words
         const more = element("button", { type: "button", class: "more", "aria-label": say(T.about, { name }), "aria-expanded": "false", "aria-controls": `${id}-help` }, "?");
         help.hidden = true;
@@ -117,7 +120,7 @@ export class Controls {
 
     take(row, text, from) {
         const wrong = this.changed(row.info.key, row.info.kind === "choice" ? text : plainOf(text));
-        row.error.textContent = wrong || "";
+        write(row.error, wrong || "");
         row.field.setAttribute("aria-invalid", wrong ? "true" : "false");
         if (!wrong)
             this.show(from);

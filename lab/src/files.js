@@ -3,7 +3,7 @@
 import { element, sentence } from "./controls.js";
 import { COLUMN } from "./core.js";
 import { readScene, readTrack, writeScene } from "./state.js";
-import { say, T } from "./texts.js";
+import { say, T, Told } from "./texts.js";
 import { readTrajectory } from "./trajectory.js";
 
 const LONGEST_FILE = 20e6, FILM = /\.(webm|mp4|m4v|mov|avi|mkv|mpe?g|wmv|gif)$/i, DEGREES = 180 / Math.PI;
@@ -98,9 +98,9 @@ export class Files {
         const { lab } = this, name = file.name.slice(0, 80);
         try {
             if (FILM.test(file.name) || /^video/.test(file.type))
-                throw new Error(T.bad.film);
+                throw new Told(T.bad.film);
             if (file.size > LONGEST_FILE)
-                throw new Error(T.bad.large);
+                throw new Told(T.bad.large);
             const text = await file.text();
             const trajectory = readTrajectory(text);
             if (trajectory || /\.(ya?ml)$/i.test(file.name)) {

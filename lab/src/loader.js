@@ -22,5 +22,9 @@ window.festoonLab = {};
 window.festoonPage = `<!doctype html>${document.documentElement.outerHTML}`; /* before anything has changed it: beside.js needs it */
 window.festoonLab.ready = load();
 window.festoonLab.ready.catch((error) => {
-    document.getElementById("notice").textContent = window.festoonLab.couldNotBegin?.(error) ?? `The page could not begin: ${error.message}`;
+    const { couldNotBegin } = window.festoonLab;
+    if (couldNotBegin)
+        couldNotBegin(error);
+    else
+        document.getElementById("notice").textContent = `The page could not begin: ${error.message}`; /* no other language is unpacked yet */
 });

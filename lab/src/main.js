@@ -12,6 +12,7 @@ import { Pace } from "./pace.js";
 import { Panels } from "./panels.js";
 import { Pool } from "./pool.js";
 import { Recording } from "./recording.js";
+import { whole, write } from "./said.js";
 import { PRESETS } from "./scenes.js";
 import { readAddress, takeGood, writeAddress } from "./state.js";
 import { languageOf, say, speak, T } from "./texts.js";
@@ -162,7 +163,7 @@ class Lab {
 
     /* A line at the top: news, or what went wrong. */
     tell(text, bad = false) {
-        $("notice").textContent = text;
+        write($("notice"), text);
         $("notice").classList.toggle("bad", bad);
     }
 
@@ -445,7 +446,7 @@ class Lab {
             this.panels.showRun(result);
         } catch (error) {
             if (error.status !== 8)
-                $("regime").textContent = sentence(error);
+                write($("regime"), sentence(error));
         }
     }
 
@@ -523,7 +524,7 @@ class Lab {
         if (!Object.keys(scene).length && !Object.keys(view).length && !unknown.length) {
             this.openPreset(PRESETS[1]);
         } else {
-            const good = takeGood(scene, (some) => this.core.setScene(some)), wrong = good.errors.map((error) => `${sentence(error)}.`);
+            const good = takeGood(scene, (some) => this.core.setScene(some)), wrong = good.errors.map((error) => whole(sentence(error)));
             this.open({ scene: good.scene, view });
             if (unknown.length)
                 wrong.push(say(T.unknown, { words: unknown.join(", ") }));
@@ -592,8 +593,7 @@ async function begin() {
 }
 
 speak(languageOf(navigator.languages));
-window.festoonLab.couldNotBegin = (error) => say(T.couldNotBegin, { why: error.message });
-/* loader.js calls it, and shows what it throws. */
-window.festoonLab.begin = () => begin().catch((error) => {
-    throw new Error(sentence(error), { cause: error });
-});
+document.documentElement.lang = T.lang;
+/* loader.js calls them. */
+window.festoonLab.couldNotBegin = (error) => write($("notice"), say(T.couldNotBegin, { why: sentence(error) }));
+window.festoonLab.begin = begin;

@@ -1,6 +1,7 @@
 /* pool.js - runs and sweeps in workers.  A worker that must stop is ended and replaced: a page opened from a file may
  * share no memory with its workers, so there is no flag that a busy one could look at. */
 import { FestoonError, STATUS } from "./core.js";
+import { T, Told } from "./texts.js";
 
 class Runner {
     constructor(pool) {
@@ -22,7 +23,7 @@ class Runner {
             return;
         this.worker = new Worker(this.pool.address);
         this.worker.onmessage = ({ data }) => this.hear(data);
-        this.worker.onerror = (event) => this.waiting?.reject(new Error(event.message || "a worker failed"));
+        this.worker.onerror = (event) => this.waiting?.reject(event.message ? new Error(event.message) : new Told(T.workerFailed));
         this.ready = false;
         await this.send({ kind: "open", module: this.pool.module });
         this.ready = true;

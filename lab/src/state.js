@@ -3,7 +3,7 @@
 
 import { CAMERAS } from "./camera.js";
 import { ARROWS } from "./colours.js";
-import { LANGUAGES, say, T } from "./texts.js";
+import { LANGUAGES, say, T, Told } from "./texts.js";
 import { QUANTITIES } from "./trail.js";
 
 /* The words of an address that are no scene's, and what each may be. */
@@ -108,7 +108,7 @@ export function readScene(text) {
     let group = "", list = null;
     const put = (key, value, line) => {
         if (key in scene)
-            throw new Error(say(T.bad.twice, { line, key: key.slice(0, 60) }));
+            throw new Told(say(T.bad.twice, { line, key: key.slice(0, 60) }));
         scene[key] = value.replace(/^(["'])(.*)\1$/, "$2").slice(0, LONGEST);
     };
     /* A value, or the components of a vector. */
@@ -121,7 +121,7 @@ export function readScene(text) {
     };
     text.replace(/^\uFEFF/, "").split(/\r?\n/).forEach((whole, index) => {
         const line = whole.replace(/(^|\s)#.*$/, "").trimEnd(), number = index + 1;
-        const bad = () => new Error(say(T.bad.row, { line: number }));
+        const bad = () => new Told(say(T.bad.row, { line: number }));
         if (!line.trim() || line.trim() === "---")
             return;
         const flow = /^(\s*)- +(\{.*\})$/.exec(line), found = flow || /^(\s*)(- +)?"?([A-Za-z_][\w.[\]]*)"?\s*:\s*(.*)$/.exec(line);
@@ -172,10 +172,10 @@ export function readTrack(text) {
     const column = (name) => heads.findIndex((head) => head && head[1].toLowerCase() === name);
     const x = column("x"), y = column("y");
     if (x < 0 || y < 0)
-        throw new Error(say(T.bad.columns, { line: lines[0]?.number || 1 }));
+        throw new Told(say(T.bad.columns, { line: lines[0]?.number || 1 }));
     const unit = heads[x][2] || "px", factor = MILLIMETRES.get(unit);
     if (factor === undefined)
-        throw new Error(say(T.bad.unit, { line: lines[0].number, unit: unit.slice(0, 20) }));
+        throw new Told(say(T.bad.unit, { line: lines[0].number, unit: unit.slice(0, 20) }));
     const points = [];
     lines.slice(1).forEach(({ line, number }) => {
         const row = cells(line);
@@ -183,13 +183,13 @@ export function readTrack(text) {
             return;
         const point = [Number(row[x]), Number(row[y])];
         if (!point.every((value) => Math.abs(value) <= FARTHEST))
-            throw new Error(say(T.bad.number, { line: number, most: FARTHEST }));
+            throw new Told(say(T.bad.number, { line: number, most: FARTHEST }));
         points.push(point);
     });
     if (points.length < 3)
-        throw new Error(T.bad.few);
+        throw new Told(T.bad.few);
     if (points.every((p) => p[0] === points[0][0] && p[1] === points[0][1]))
-        throw new Error(T.bad.same);
+        throw new Told(T.bad.same);
     return { points: centred(points, factor || 1), unit: factor ? "mm" : "px" };
 }
 

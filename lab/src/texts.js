@@ -3,9 +3,15 @@ import de from "./texts/de.js";
 import en from "./texts/en.js";
 import es from "./texts/es.js";
 import fr from "./texts/fr.js";
+import saidDe from "./texts/said/de.js";
+import saidEn from "./texts/said/en.js";
+import saidEs from "./texts/said/es.js";
+import saidFr from "./texts/said/fr.js";
+import saidZh from "./texts/said/zh.js";
 import zh from "./texts/zh.js";
 
 export const TABLES = { en, de, fr, es, zh };
+export const SAID = { en: saidEn, de: saidDe, fr: saidFr, es: saidEs, zh: saidZh }; /* of the library's sentences: said.js */
 export const LANGUAGES = { en: "English", de: "Deutsch", fr: "Français", es: "Español", zh: "中文" };
 
 /* The words that are shown, and the decimal sign between digits.  Whoever shows them asks for them anew when the
@@ -20,6 +26,9 @@ export function speak(language) {
 
 /* The first of a browser's languages that has a table, else English. */
 export const languageOf = (wanted) => wanted.map((name) => name.slice(0, 2).toLowerCase()).find((name) => Object.hasOwn(TABLES, name)) ?? "en";
+
+/* An error that the page itself has told, in its language. */
+export class Told extends Error {}
 
 /* A text with values in its places. */
 export const say = (text, values) => text.replace(/\{(\w+)\}/g, (all, name) => values[name]);

@@ -1,7 +1,7 @@
 /* trajectory.js - a file of `festoon run --csv`: its scene, and its samples as rows that the page plays. */
 import { COLUMN, COLUMNS } from "./core.js";
 import { cellsBy, readScene } from "./state.js";
-import { say, T } from "./texts.js";
+import { say, T, Told } from "./texts.js";
 
 const TURN = 2 * Math.PI, MOST = 1e12;
 
@@ -35,7 +35,7 @@ export function recordingOf({ columns, rows }, core) {
         return factor === undefined ? null : { name, at, factor };
     };
     const needed = (name) => column(name) ?? (() => {
-        throw new Error(say(T.bad.missing, { name }));
+        throw new Told(say(T.bad.missing, { name }));
     })();
     /* Of one bead on a plate, z is the height of its lowest point. */
     const state = [...(listed ? ["X", "Y", "Z", "vX", "vY", "vZ"] : ["X", "Y", "z", "vX", "vY", "vz"]), "nX", "nY", "nZ", "WX", "WY", "WZ"];
@@ -46,13 +46,13 @@ export function recordingOf({ columns, rows }, core) {
     rows.forEach(({ cells, number }, i) => read.forEach(({ name, at, factor }, k) => {
         const value = Number(cells[at] || NaN) * factor;
         if (!(Math.abs(value) < MOST))
-            throw new Error(say(T.bad.cell, { line: number, name }));
+            throw new Told(say(T.bad.cell, { line: number, name }));
         if (k === 0 && i > 0 && value <= samples[(i - 1) * read.length])
-            throw new Error(say(T.bad.time, { line: number }));
+            throw new Told(say(T.bad.time, { line: number }));
         samples[i * read.length + k] = value + (!listed && k === 4 ? eps : 0);
     }));
     if (rows.length < 3)
-        throw new Error(T.bad.few);
+        throw new Told(T.bad.few);
     const made = [];
     core.replay(samples, rows.length, (seen) => {
         made.push(fillForces(Float64Array.from(seen), rows[made.length].cells, beads, listed, column));

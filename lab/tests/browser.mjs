@@ -383,6 +383,39 @@ const tests = {
         assert.match(await page.evaluate(() => location.hash), /ui\.slow=200/);
         await close(page);
     },
+    async "what is refused, and why a run is what it is, is told in the page's language; what has no words in it says that it is English"() {
+        const page = await open("#v=1&drive.frequency=10.7+Hz&run.periods=60&run.discard=30");
+        for (const [language, refused, why] of [["en", /is out of range/, /^A closed orbit.*\.$/], ["de", /liegt außerhalb des Bereichs von/, /^Eine geschlossene Bahn.*\.$/], ["fr", /sort du domaine permis/, /^Une orbite fermée.*\.$/], ["es", /está fuera del intervalo/, /^Una órbita cerrada.*\.$/], ["zh", /超出范围/, /^闭合轨道.*。$/]]) {
+            await page.select("#language", language);
+            const told = await page.$$eval("#controls .row > .error", (all) => all.map((error) => {
+                const field = error.parentElement.querySelector("input[type=text]");
+                const tried = ["-1e99", "1e99", "x"].map((value) => {
+                    if (field)
+                        field.value = value;
+                    field?.dispatchEvent(new Event("change", { bubbles: true }));
+                    return error.textContent;
+                });
+                return field ? { id: field.id, tried, english: error.querySelectorAll("[lang]").length } : null;
+            }).filter(Boolean));
+            assert.ok(told.length > 25);
+            told.forEach(({ id, tried, english }) => assert.ok(tried.every((text) => text.length > 10) && english === 0, `${language} ${id}: ${tried}`));
+            assert.ok(told.filter(({ tried }) => refused.test(tried[1])).length > 20);
+            await page.waitForFunction((pattern) => new RegExp(pattern, "s").test(document.getElementById("why-text").textContent), { timeout: 0 }, why.source);
+            const english = await page.evaluate(() => {
+                window.festoonLab.lab.files.open({ name: "a.yaml", size: 1, type: "", text: () => Promise.reject(new Error("the <b>disk</b> is gone")) });
+                return new Promise((resolve) => setTimeout(() => resolve([document.getElementById("notice").textContent, document.querySelector("#notice [lang=en]")?.textContent ?? null])));
+            });
+            assert.match(english[0], /^a\.yaml\s?[:：]\s?the <b>disk<\/b> is gone$/);
+            assert.equal(english[1], language === "en" ? null : "the <b>disk</b> is gone");
+            await nothingOverlaps(page, `${language}, with errors`);
+            await picture(page, `wide-errors-${language}`);
+        }
+        await checkAxe(page, "errors");
+        await close(page);
+        const bad = await open("#v=1&drive.frequency=12+parsec&start.r=50&ui.lang=de&foo=1");
+        assert.match(await bad.$eval("#notice", (notice) => notice.textContent), /^drive\.frequency: „12 parsec“ hat die unbekannte Einheit .*\. start\.r = 50 liegt jenseits des Plattenrands.*foo/);
+        await close(bad);
+    },
     async "an address brings the same state back; unknown keys are named as text"() {
         const first = await open("#v=1&drive.frequency=14.5+Hz&magnet.depth=15+mm&friction.law=coulomb&ui.camera=magnet&ui.slow=100&ui.arrows=moment,load&ui.colour=slip");
         const hash = await first.evaluate(() => location.hash), scene = await first.evaluate(() => window.festoonLab.core.scene());

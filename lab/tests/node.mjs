@@ -18,8 +18,9 @@ import { readTrajectory, recordingOf } from "../src/trajectory.js";
 import { readAddress, readScene, readTrack, takeGood, writeAddress, writeScene } from "../src/state.js";
 import { regimeSentence } from "../src/panels.js";
 import { LESSON, PRESETS } from "../src/scenes.js";
-import { LANGUAGES, languageOf, plainOf, say, shown, speak, T, TABLES } from "../src/texts.js";
+import { LANGUAGES, languageOf, plainOf, SAID, say, shown, speak, T, TABLES } from "../src/texts.js";
 import { goldenHashes } from "./golden.mjs";
+import * as said from "./said.mjs";
 
 const { FESTOON, SOURCE_DIR, BUILD_DIR } = process.env;
 const wasm = join(BUILD_DIR, "lab", "festoon.wasm"), made = existsSync(wasm) && existsSync(join(BUILD_DIR, "festoon-lab.html"));
@@ -89,8 +90,9 @@ function frames(gap, work, slow) {
     return film;
 }
 
-/* Every text of a table by its path. */
+/* Every text of a table by its path; those of a language, with the library's sentences. */
 const textsOf = (words, path = "") => (typeof words === "string" ? [[path, words]] : Object.entries(words).flatMap(([key, value]) => textsOf(value, `${path}/${key}`)));
+const textsIn = (language) => [...textsOf(TABLES[language]), ...textsOf(SAID[language], "/said")];
 
 /* On the sources alone. */
 const scripts = {
@@ -207,13 +209,14 @@ const scripts = {
         const placesIn = (text) => (text.match(/\{\w+\}/g) ?? []).sort();
         /* What is the same in English, and may be. */
         const same = {
-            de: ["/pair", "/percent", "/plots/path", "/worksheet/name", "/groups/magnet", "/groups/start"],
-            fr: ["/pause", "/plots/path", "/quantities/r", "/groups/contact", "/worksheet/date"], es: ["/pair", "/percent"], zh: [],
+            de: ["/pair", "/percent", "/sentence", "/plots/path", "/worksheet/name", "/groups/magnet", "/groups/start", "/said/sentences/key", "/said/pieces/more"],
+            fr: ["/pause", "/sentence", "/plots/path", "/quantities/r", "/groups/contact", "/worksheet/date", "/said/pieces/more", "/said/numbers/six"],
+            es: ["/pair", "/percent", "/sentence", "/said/sentences/key", "/said/pieces/more"], zh: ["/said/words/time"],
         };
         assert.deepEqual(Object.keys(LANGUAGES), Object.keys(TABLES));
-        const english = new Map(textsOf(TABLES.en));
+        const english = new Map(textsIn("en"));
         for (const [language, table] of Object.entries(TABLES)) {
-            const own = new Map(textsOf(table));
+            const own = new Map(textsIn(language));
             assert.deepEqual([...own.keys()].sort(), [...english.keys()].sort(), language);
             assert.equal(table.lesson.length, LESSON.length);
             table.lesson.forEach((step, i) => assert.ok(step.answers.length === 3 && LESSON[i].answer < 3 && new Set(step.answers).size === 3));
@@ -230,9 +233,9 @@ const scripts = {
     },
     "numbers that a translated text states are those of the English one, written as the language writes them"() {
         const numbersIn = (text) => (text.replace(/\{\w+\}|x \[mm\].*/g, "").match(/\d+(?:[.,]\d+)?/g) ?? []).map((number) => number.replace(",", ".")).sort();
-        const english = new Map(textsOf(TABLES.en));
+        const english = new Map(textsIn("en"));
         for (const language of ["de", "fr", "es", "zh"])
-            for (const [path, text] of textsOf(TABLES[language])) {
+            for (const [path, text] of textsIn(language)) {
                 assert.deepEqual(numbersIn(text), numbersIn(english.get(path)), `${language} ${path}`);
                 assert.ok(!(language === "zh" ? /\d,\d/ : /\d\.\d/).test(text), `${language} ${path}: another language's decimal sign`);
             }
@@ -244,7 +247,7 @@ const scripts = {
         };
         const pairs = { de: ["„", "“"], fr: ["«", "»"], es: ["«", "»"], zh: ["“", "”"] };
         for (const [language, marks] of Object.entries(foreign))
-            for (const [path, text] of textsOf(TABLES[language])) {
+            for (const [path, text] of textsIn(language)) {
                 assert.ok(!marks.test(path === "/bad/row" ? text.replace("键: 值", "") : text), `${language} ${path}: ${text}`);
                 assert.equal(...pairs[language].map((mark) => text.split(mark).length), `${language} ${path}`);
                 if (language === "es")
@@ -706,7 +709,7 @@ const library = {
 };
 
 let failed = 0;
-for (const [name, test] of Object.entries(core ? { ...scripts, ...library } : scripts)) {
+for (const [name, test] of Object.entries(core ? { ...scripts, ...said.scripts, ...library, ...said.library(core) } : { ...scripts, ...said.scripts })) {
     try {
         await test();
         console.log(`ok: ${name}`);

@@ -21,6 +21,7 @@ export default {
         none: "Ohne Reibung", dry: "Trockene Reibung: Gleiten und Haften", discs: "Zwei echte Magnete, 15 Hz", walker: "Zwei Kugeln: ein Läufer", opposite: "Zwei Kugeln, gegenüber",
         levitation: "Schweben", bowl: "In einer Schale", wave: "Ein wanderndes Feld",
     },
+    sentence: "{text}.", workerFailed: "ein Rechenfaden der Seite ist abgebrochen",
     pair: "{name}: {value}", percent: "{n} %",
     paper: "Eingestellt für dieses Bild: {given}.", paperDefault: "Alle Größen haben ihre Standardwerte.",
     rampOn: "wird schneller: {f} Hz",

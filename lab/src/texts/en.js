@@ -22,6 +22,7 @@ export default {
         none: "No friction", dry: "Dry friction: slip and stick", discs: "Two real magnets, 15 Hz", walker: "Two beads: a walker", opposite: "Two beads, opposite",
         levitation: "Levitation", bowl: "In a bowl", wave: "A travelling field",
     },
+    sentence: "{text}.", workerFailed: "a thread of the page failed",
     pair: "{name}: {value}", percent: "{n} %",
     paper: "Set for this picture: {given}.", paperDefault: "All parameters have their defaults.",
     rampOn: "speeding up: {f} Hz",

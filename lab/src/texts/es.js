@@ -21,6 +21,7 @@ export default {
         none: "Sin rozamiento", dry: "Rozamiento seco: deslizarse y adherirse", discs: "Dos imanes reales, 15 Hz", walker: "Dos bolas: un caminante", opposite: "Dos bolas, opuestas",
         levitation: "Levitación", bowl: "En un cuenco", wave: "Un campo que viaja",
     },
+    sentence: "{text}.", workerFailed: "un hilo de cálculo de la página falló",
     pair: "{name}: {value}", percent: "{n} %",
     paper: "Ajustes de esta imagen: {given}.", paperDefault: "Todos los parámetros tienen su valor predeterminado.",
     rampOn: "acelerando: {f} Hz",

@@ -25,6 +25,7 @@ export default typeset({
         none: "Sans frottement", dry: "Frottement sec : glisser, adhérer", discs: "Deux vrais aimants, 15 Hz", walker: "Deux billes : un marcheur", opposite: "Deux billes, face à face",
         levitation: "Lévitation", bowl: "Dans un bol", wave: "Un champ qui se propage",
     },
+    sentence: "{text}.", workerFailed: "un fil de calcul de la page a échoué",
     pair: "{name} : {value}", percent: "{n} %",
     paper: "Réglages pour cette image : {given}.", paperDefault: "Tous les paramètres ont leur valeur par défaut.",
     rampOn: "accélération : {f} Hz",

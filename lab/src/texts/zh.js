@@ -21,6 +21,7 @@ export default {
         none: "无摩擦", dry: "干摩擦：滑动与黏着", discs: "两块实际磁铁，15 Hz", walker: "两个小球：行走的一对", opposite: "两个小球，遥遥相对",
         levitation: "磁悬浮", bowl: "在碗中", wave: "行波磁场",
     },
+    sentence: "{text}。", workerFailed: "页面的一个计算线程失败了",
     pair: "{name}：{value}", percent: "{n}%",
     paper: "本图的设定：{given}。", paperDefault: "所有参数均为默认值。",
     rampOn: "正在加速：{f} Hz",
