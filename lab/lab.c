@@ -39,6 +39,8 @@ EXPORT(lab_free) void lab_free(lab *l)
     forget_flow(l);
     fst_beads_free(&l->beads);
     fst_grid_free(l->grid);
+    for (int i = 0; i < 2; ++i)
+        fst_field_map_free(l->maps[i].map);
     free(l);
 }
 
@@ -173,6 +175,8 @@ EXPORT(lab_check) int lab_check(lab *l)
     l->params.run_discard = fst_run_discard(&l->params);
     fst_status status = fst_params_check_effects(&l->params, &l->error);
     fst_model *model = NULL;
+    if (status == FST_OK)
+        status = lab_lend_map(l);
     if (status == FST_OK && lab_is_recorded(l))
         return (int)lab_check_recorded(l);
     if (status == FST_OK)

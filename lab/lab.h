@@ -48,8 +48,15 @@ enum {
 
 enum { ROWS = 4096, TEXT_SIZE = 512 };
 
+/* A map that was given to the page, by its name and checksum. */
+typedef struct lab_kept_map {
+    fst_field_map *map;
+    char name[256], checksum[17];
+} lab_kept_map;
+
 typedef struct lab {
     fst_params params, kept;
+    lab_kept_map maps[2], *latest;
     fst_error error;
     fst_run_result result;
     fst_world_result world; /* of the last run of a bead in a world */
@@ -69,6 +76,9 @@ typedef struct lab {
 
 /* Whether the motion is that of several beads or of one in a world, which is computed whole and recorded. */
 int lab_is_recorded(const lab *l);
+
+/* Where the scene names a map, the parameters use it; what the page does not have is an error. */
+fst_status lab_lend_map(lab *l);
 
 /* What recorded.c has of lab_check() and lab_run(). */
 fst_status lab_check_recorded(lab *l);

@@ -63,6 +63,9 @@ typedef struct fst_field_map_facts {
 } fst_field_map_facts;
 FST_API fst_field_map_facts fst_field_map_describe(const fst_field_map *map);
 
+/* Say what makes a map doubtful, a curl above 1e-3, in `sentence`.  Returns its length, 0 where nothing does. */
+FST_API int fst_field_map_doubt(const fst_field_map *map, char *sentence, size_t size);
+
 typedef struct fst_smoothing {
     double noise;  /* T: standard deviation of a component of a sample; NAN: the fit estimates it */
     int probe;     /* whether the probe may be turned about its place and have offsets, which are fitted too */

@@ -6,9 +6,10 @@ import { T } from "./texts.js";
 export const isOneOfTwo = () => Boolean(window.frameElement?.closest("#beside"));
 
 /* The page in a frame goes on with a scene and its view. */
-async function openIn(frame, { language, state }) {
+async function openIn(frame, { language, state, maps }) {
     await new Promise((resolve) => frame.addEventListener("load", resolve, { once: true }));
     const { lab } = await frame.contentWindow.festoonLab.ready;
+    maps.forEach(({ name, bytes }) => lab.takeMap(name, bytes));
     lab.settings.language = language;
     lab.speak();
     lab.open(state);
@@ -26,7 +27,7 @@ export async function openBeside(lab) {
     };
     lab.lesson.close();
     lab.play(false);
-    const pages = frames.map((frame) => openIn(frame, { language: lab.language, state })), both = Promise.all(pages);
+    const pages = frames.map((frame) => openIn(frame, { language: lab.language, state, maps: [...lab.pool.maps.values()] })), both = Promise.all(pages);
     const restart = button("beside-restart", words.restart, async () => (await both).forEach((one) => {
         one.restart();
         one.play(true);
@@ -35,6 +36,7 @@ export async function openBeside(lab) {
         const left = await pages[0], view = left.viewWords(), scene = { ...left.scene };
         box.replaceChildren();
         document.body.classList.remove("beside-on");
+        [...left.pool.maps.values()].forEach(({ name, bytes }) => lab.takeMap(name, bytes));
         lab.open({ scene, view });
         lab.play(true);
         document.getElementById("beside-open").focus();

@@ -204,6 +204,29 @@ export class Core {
         return this.text(this.c.lab_warning(this.bead));
     }
 
+    /* Keep a map, {name, bytes}, for scenes that name it.  Returns its checksum. */
+    readMap({ name, bytes }) {
+        const at = this.given(this.c.lab_alloc(bytes.length + 1));
+        try {
+            new Uint8Array(this.c.memory.buffer).set(bytes, at);
+            this.check(this.withTexts([name], (text) => this.c.lab_map(this.bead, text, at, bytes.length)));
+        } finally {
+            this.c.lab_release(at);
+        }
+        return this.text(this.c.lab_map_checksum(this.bead));
+    }
+
+    /* What makes the map of the scene doubtful, or "". */
+    mapDoubt() {
+        return this.text(this.c.lab_map_doubt(this.bead));
+    }
+
+    /* B_z over the square about the disc of the map, `side` rows along y of as many numbers, NaN outside; and its radius. */
+    mapPicture(side) {
+        const all = this.doubles(this.given(this.c.lab_map_picture(this.bead, side)), side * side + 1);
+        return { side, up: Array.from(all.subarray(0, side * side)), radius: all[side * side] };
+    }
+
     groups() {
         const at = this.c.lab_groups(this.bead);
         if (!at)

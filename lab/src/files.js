@@ -2,11 +2,16 @@
  * which checks them, and its words are shown as text. */
 import { element, sentence } from "./controls.js";
 import { COLUMN } from "./core.js";
+import { withMap } from "./magnet.js";
+import { told, whole } from "./said.js";
 import { readScene, readTrack, writeScene } from "./state.js";
 import { say, T, Told } from "./texts.js";
 import { readTrajectory } from "./trajectory.js";
 
-const LONGEST_FILE = 20e6, FILM = /\.(webm|mp4|m4v|mov|avi|mkv|mpe?g|wmv|gif)$/i, DEGREES = 180 / Math.PI;
+/* Whether a table is a measured field, by the names of its columns, or a file that may be one. */
+const isMap = (name, text) => /\.(h5|hdf5|vt[kir])$/i.test(name) || /^.{0,80}(^|[,;\t"# ])b[ _]?x\b/im.test(text.slice(0, 4000));
+
+const SCENE = /\.ya?ml$/i, LONGEST_FILE = 20e6, FILM = /\.(webm|mp4|m4v|mov|avi|mkv|mpe?g|wmv|gif)$/i, DEGREES = 180 / Math.PI;
 
 function save(name, blob) {
     const address = URL.createObjectURL(blob), link = element("a", { href: address, download: name });
@@ -44,8 +49,8 @@ export class Files {
             this.film = add("save-film", this.recorder ? T.stopFilm : T.saveFilm, () => this.record());
         add("save-scene", T.saveScene, () => save("festoon.yaml", new Blob([this.sceneText()], { type: "text/yaml" })));
         add("copy", T.copy, () => this.copy());
-        const input = element("input", { type: "file", id: "open", accept: ".yaml,.yml,.csv,.txt", hidden: true });
-        input.addEventListener("change", () => input.files[0] && this.open(input.files[0]));
+        const input = element("input", { type: "file", id: "open", accept: ".yaml,.yml,.csv,.txt", multiple: true, hidden: true });
+        input.addEventListener("change", () => this.openAll(input.files));
         add("open-button", T.open, () => input.click());
         box.append(input, element("p", { class: "help" }, T.openHelp));
     }
@@ -89,9 +94,15 @@ export class Files {
         document.addEventListener("drop", (event) => {
             event.preventDefault();
             document.body.classList.remove("drop");
-            if (event.dataTransfer.files[0])
-                this.open(event.dataTransfer.files[0]);
+            this.openAll(event.dataTransfer.files);
         });
+    }
+
+    /* Scenes come last, because they may name the maps among the files. */
+    async openAll(files) {
+        const isScene = ({ name }) => SCENE.test(name);
+        for (const file of [...files].sort((a, b) => isScene(a) - isScene(b)))
+            await this.open(file);
     }
 
     async open(file) {
@@ -103,21 +114,44 @@ export class Files {
                 throw new Told(T.bad.large);
             const text = await file.text();
             const trajectory = readTrajectory(text);
-            if (trajectory || /\.(ya?ml)$/i.test(file.name)) {
-                const scene = trajectory?.scene ?? readScene(text), view = { ...lab.viewWords(), "ui.ramp": "0", "ui.settle": "0" }; /* a scene begins at its own start */
-                let wrong = null;
-                lab.replace(() => {
-                    wrong = lab.open({ scene, view }, trajectory);
-                    if (!wrong)
-                        lab.lesson.close();
-                });
-                lab.tell(wrong ? say(T.pair, { name, value: wrong }) : say(trajectory ? T.replayed : T.opened, { name }), Boolean(wrong));
+            if (!trajectory && isMap(file.name, text)) {
+                const map = lab.takeMap(name, new Uint8Array(await file.arrayBuffer()));
+                this.openScene(name, this.sceneFor(map), T.mapTaken);
+            } else if (trajectory || SCENE.test(file.name)) {
+                this.openScene(name, trajectory?.scene ?? readScene(text), trajectory ? T.replayed : T.opened, trajectory);
             } else {
                 this.showTrack(readTrack(text));
             }
         } catch (error) {
-            lab.tell(say(T.pair, { name, value: sentence(error) }), true);
+            this.refuse(name, sentence(error));
         }
+    }
+
+    /* The scene that waited for this map, or the one that is open, with it. */
+    sceneFor(map) {
+        const { awaited, scene } = this.lab, waits = awaited?.["magnet.file"]?.split("/").at(-1) === map.name;
+        this.lab.awaited = waits ? null : awaited;
+        return waits && awaited["magnet.checksum"] ? awaited : withMap(waits ? awaited : scene, map);
+    }
+
+    /* The library may have named the file, and its line. */
+    refuse(name, wrong) {
+        this.lab.tell(wrong.startsWith(name) ? wrong : say(T.pair, { name, value: wrong }), true);
+    }
+
+    openScene(name, scene, news, trajectory = null) {
+        const { lab } = this, view = { ...lab.viewWords(), "ui.ramp": "0", "ui.settle": "0" }; /* a scene begins at its own start */
+        let wrong = null;
+        lab.replace(() => {
+            wrong = lab.open({ scene, view }, trajectory);
+            if (!wrong)
+                lab.lesson.close();
+        });
+        const doubt = wrong ? "" : lab.core.mapDoubt();
+        if (wrong)
+            this.refuse(name, wrong);
+        else
+            lab.tell([say(news, { name }), doubt && whole(told(doubt))].filter(Boolean).join(" "));
     }
 
     showTrack({ points, unit }) {

@@ -3,6 +3,7 @@
  * A body is {kind: "cuboid" | "cylinder" | "sphere", centre, size, axis, turn}: size as in a scene (three edges;
  * diameter and height; diameter), axis the direction of its magnetisation (its north pole), turn an optional
  * [degrees, x, y, z].  Both views draw any such list. */
+import { NORTH, SOUTH } from "./colours.js";
 
 /* The paper's bar is 56 mm long for lines of 46 mm, and 9 mm thick. */
 const BAR_OVER_LINES = 56 / 46, BAR_THICKNESS = 9e-3;
@@ -26,6 +27,25 @@ export function bodiesOf(groups, north, parts = [], depth = 0, real = parts.leng
         kind: "cuboid", centre: [0, 0, -below], axis: [north, 0, 0],
         size: [2 * BAR_OVER_LINES, Math.max(width, 0.08), Math.min(BAR_THICKNESS / groups.length_unit_m, 1.6 * below)],
     }];
+}
+
+/* A scene whose magnet is a measured field, the last that was given to the page; and one that has another. */
+export const withoutMap = ({ "magnet.file": file, "magnet.checksum": checksum, ...scene }) => scene;
+export function withMap(scene, map) {
+    const others = Object.entries(withoutMap(scene)).filter(([key]) => !/^magnet\.(parts|lines$|width$)|^model\.lambda$/.test(key));
+    return { ...Object.fromEntries(others), "magnet.shape": "grid", ...(map ? { "magnet.file": map.name, "magnet.checksum": map.checksum } : {}) };
+}
+
+/* A measured field as a picture, its first row at the least y: red where it points up, blue where down. */
+export function pictureOf({ side, up }) {
+    const canvas = document.createElement("canvas"), pen = canvas.getContext("2d"), most = Math.max(...up.map((v) => Math.abs(v) || 0)) || 1;
+    canvas.width = canvas.height = side;
+    up.forEach((v, i) => {
+        pen.globalAlpha = Math.sqrt(Math.abs(v) / most) || 0;
+        pen.fillStyle = v > 0 ? NORTH : SOUTH;
+        pen.fillRect(i % side, Math.floor(i / side), 1, 1);
+    });
+    return canvas;
 }
 
 /* What a view has to show, as circles about the axis, [radius, z]: the place of the path, and all that the bodies sweep

@@ -7,7 +7,7 @@ import { listenDrags } from "./drag.js";
 import { Files } from "./files.js";
 import { listenKeys } from "./keys.js";
 import { Lesson } from "./lesson.js";
-import { bodiesOf, hullOf } from "./magnet.js";
+import { bodiesOf, hullOf, withMap, withoutMap } from "./magnet.js";
 import { Pace } from "./pace.js";
 import { Panels } from "./panels.js";
 import { Pool } from "./pool.js";
@@ -106,10 +106,11 @@ class Lab {
         this.units = unitsOf(groups);
         this.groups = groups;
         const north = Math.sign(core.field(1, 0)[2]) || 1, waveform = core.get("drive.waveform"), wave = waveform === "wave";
-        const real = core.get("magnet.shape") === "parts", radii = this.recording ? core.radii() : [groups.eps];
-        const bodies = this.bodies = real || !wave ? bodiesOf(groups, north, core.parts(), core.value("magnet.depth"), real) : [];
+        const shape = core.get("magnet.shape"), real = shape === "parts", radii = this.recording ? core.radii() : [groups.eps];
+        const bodies = this.bodies = shape === "grid" ? [] : real || !wave ? bodiesOf(groups, north, core.parts(), core.value("magnet.depth"), real) : [];
         const field = Math.hypot(...(this.recording ? this.row.subarray(COLUMN.b, COLUMN.b + 3) : magnetic)) || 1;
         this.view.furnish({
+            map: shape === "grid" && !wave ? core.mapPicture(64) : null,
             eps: groups.eps, radii, plate: core.get("plate.shape"), bowl: core.value("plate.bowl_radius") / l,
             plateRadius: groups.plate_radius, ring: 10 / this.units.mm, fieldScale: field, bodies,
             wave: wave ? { length: core.value("wave.length") / l, sign: core.value("wave.ratio") > 1 ? -1 : 1 } : null,
@@ -173,6 +174,8 @@ class Lab {
         try {
             this.core.setScene(scene);
         } catch (error) {
+            if (scene["magnet.file"] && !this.pool.mapOf(scene))
+                this.awaited = scene; /* until its map is dropped */
             return sentence(error);
         }
         try {
@@ -198,7 +201,32 @@ class Lab {
                 delete scene[info.otherForm];
             scene[key] = text;
         }
+        if (key === "magnet.shape")
+            return this.changeTo(text === "grid" ? withMap(scene, [...this.pool.maps.values()].at(-1)) : withoutMap(scene), key);
         return this.changeTo(scene, key);
+    }
+
+    /* A scene from an address whose map nobody has dropped yet waits for it; until then it goes without. */
+    withoutAway(scene, wrong) {
+        if (!scene["magnet.file"] || this.pool.mapOf(scene))
+            return scene;
+        this.awaited = scene;
+        try {
+            this.core.setScene(scene);
+        } catch (error) {
+            if (error.where === "magnet.file")
+                wrong.push(whole(sentence(error)));
+        }
+        const { "magnet.shape": shape, ...rest } = withoutMap(scene);
+        return rest;
+    }
+
+    /* Keep a measured field for scenes that name it. */
+    takeMap(name, bytes) {
+        const map = { name, bytes, checksum: this.core.readMap({ name, bytes }) };
+        this.pool.maps.delete(name); /* the latest is the last */
+        this.pool.maps.set(name, map);
+        return map;
     }
 
     /* Another scene, which differs by one key, or by the places of a magnet's parts; the motion goes on where it can. */
@@ -524,12 +552,13 @@ class Lab {
         if (!Object.keys(scene).length && !Object.keys(view).length && !unknown.length) {
             this.openPreset(PRESETS[1]);
         } else {
-            const good = takeGood(scene, (some) => this.core.setScene(some)), wrong = good.errors.map((error) => whole(sentence(error)));
+            const wrong = [], good = takeGood(this.withoutAway(scene, wrong), (some) => this.core.setScene(some)), found = good.errors.length + wrong.length;
+            wrong.push(...good.errors.map((error) => whole(sentence(error))));
             this.open({ scene: good.scene, view });
             if (unknown.length)
                 wrong.push(say(T.unknown, { words: unknown.join(", ") }));
             if (wrong.length)
-                this.tell(`${wrong.join(" ")} ${T.restTaken}`, good.errors.length > 0);
+                this.tell(`${wrong.join(" ")} ${T.restTaken}`, found > 0);
         }
         this.play(!window.matchMedia("(prefers-reduced-motion: reduce)").matches);
     }
@@ -566,7 +595,9 @@ async function begin() {
         run: (scene = {}) => pool.run({ ...scene }),
         stop: () => pool.stop(),
         sweep: async (scene, axis, take = () => {}) => {
-            const probe = await Core.open(module);
+            const probe = await Core.open(module), map = pool.mapOf(scene);
+            if (map)
+                probe.readMap(map);
             probe.setScene(scene);
             const values = probe.grid(axis), rows = new Array(values.length);
             await pool.sweep({ ...scene }, axis, values.length, (point, result) => {

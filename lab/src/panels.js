@@ -200,7 +200,7 @@ export class Panels {
             button.setAttribute("aria-pressed", String(button.dataset.camera === lab.camera.mode));
             button.hidden = lab.camera.flat && button.dataset.camera === "free";
         }
-        $("camera-help").textContent = `${T.cameraHelp[lab.camera.mode]}${canDrag(lab) ? ` ${T.drag}` : ""}`;
+        $("camera-help").textContent = [T.cameraHelp[lab.camera.mode], canDrag(lab) && T.drag, lab.core.get("magnet.shape") === "grid" && T.mapColours].filter(Boolean).join(" ");
         this.colour.value = s.colour;
         this.turns.value = String(s.turns);
         for (const box of this.arrowBoxes) {

@@ -52,7 +52,7 @@ class Runner {
         this.onFraction = onFraction;
         try {
             await this.begin();
-            return await this.send(message);
+            return await this.send({ ...message, map: this.pool.mapOf(message.scene) });
         } catch (error) {
             if (!this.ready || error.status === STATUS.NO_MEMORY)
                 this.end(); /* one without the library answers nothing, and one that is full holds on to what it has */
@@ -95,6 +95,12 @@ export class Pool {
         this.threads = threads;
         this.busy = new Set();
         this.idle = [];
+        this.maps = new Map(); /* by their names: {name, bytes, checksum} */
+    }
+
+    /* The measured field that a scene names, which goes with it to a worker. */
+    mapOf(scene) {
+        return this.maps.get(String(scene?.["magnet.file"] ?? "").split("/").at(-1));
     }
 
     async with(use) {

@@ -11,7 +11,7 @@ for (const name of ["hint", "choose", "kind", "sizes", "count", "at", "how", "wh
     TABLE_OF[name] = "words";
 /* Places that are keys; that are what somebody wrote, which may be anything and stays as it is; others are numbers or names. */
 const KEYS = new Set(["key", "other", "again", "next", "later", "first", "last"]);
-const WRITTEN = new Set(["text", "unit", "better", "axis", "file", "names", "forms", "example", "rows"]);
+const WRITTEN = new Set(["text", "unit", "better", "axis", "file", "names", "forms", "example", "rows", "column"]);
 const shapeOf = (place) => (KEYS.has(place) ? "([\\w.[\\]]+)" : WRITTEN.has(place) ? "(.*?)" : TABLE_OF[place] ? "(.+?)" : "([^(;]+?)");
 
 /* The patterns of a table, those with most words of their own first. */
@@ -44,7 +44,7 @@ export function told(text, table = "sentences") {
 }
 
 /* A sentence that stands alone: with a capital and its end. */
-export const whole = (text) => say(T.sentence, { text: /^\ue000?[\w[\]]+[.:=]/.test(text) ? text : text.replace(/^\ue000?./u, (head) => head.toUpperCase()) });
+export const whole = (text) => say(/[?？]\ue001?$/.test(text) ? "{text}" : T.sentence, { text: /^\ue000?[\w[\]]+[.:=]/.test(text) ? text : text.replace(/^\ue000?./u, (head) => head.toUpperCase()) });
 
 /* Where something is wrong: a key, a line of a file, or a moment in words. */
 export const toldPlace = (text) => translated(text.replace(MARKS, ""), "words", SAID[T.lang.slice(0, 2)]) ?? text.replace(MARKS, "");

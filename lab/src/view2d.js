@@ -1,6 +1,6 @@
 /* view2d.js - the stirrer from above on a plain canvas, for browsers without WebGL. */
 import { COLUMN } from "./core.js";
-import { magnetisation } from "./magnet.js";
+import { magnetisation, pictureOf } from "./magnet.js";
 import { PALETTE } from "./trail.js";
 import { ARROWS, FRICTION, GROUND, NORTH, SOUTH, TOUCH } from "./colours.js";
 
@@ -18,6 +18,7 @@ export class View2D {
 
     furnish(setup) {
         this.setup = setup;
+        this.map = setup.map && pictureOf(setup.map);
     }
 
     showTrack(points) {
@@ -95,6 +96,10 @@ export class View2D {
         pen.globalAlpha = 0.55;
         for (const body of setup.bodies)
             this.body(body);
+        if (this.map) {
+            const { radius } = setup.map;
+            pen.drawImage(this.map, -radius, -radius, 2 * radius, 2 * radius);
+        }
         pen.restore();
         for (let i = 1; setup.plate !== "none" && i * setup.ring < Math.min(setup.plateRadius, 3.2); ++i)
             this.circle(0, 0, i * setup.ring).stroke();

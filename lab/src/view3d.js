@@ -7,6 +7,7 @@ import {
 } from "three";
 import { COLUMN } from "./core.js";
 import { ARROWS, FRICTION, GROUND, LOAD, NORTH, SOUTH, TOUCH } from "./colours.js";
+import { pictureOf } from "./magnet.js";
 import { PALETTE } from "./trail.js";
 
 const TRACK_ROOM = 20000, FOV = 34, OLD = 0.75, BACK = [0.2, 0.23, 0.28];
@@ -273,6 +274,14 @@ export class View3D {
         this.plate.add(rim);
         for (const body of setup.bodies)
             this.magnet.add(halves(body));
+        this.measured?.dispose();
+        this.measured = setup.map && new CanvasTexture(pictureOf(setup.map));
+        if (setup.map) {
+            const { radius } = setup.map, material = new MeshBasicMaterial({ map: this.measured, transparent: true, opacity: 0.7, side: DoubleSide, depthWrite: false });
+            this.measured.flipY = false; /* its first row lies at the least y */
+            this.measured.colorSpace = SRGBColorSpace;
+            this.magnet.add(new Mesh(new PlaneGeometry(2 * radius, 2 * radius).translate(0, 0, -0.012), material));
+        }
         rim.visible = setup.plate === "flat";
         this.provide(setup);
         this.setup = setup;

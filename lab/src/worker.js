@@ -2,7 +2,7 @@
 import { Core } from "./core.js";
 
 const MOST_NUMBERS = 3e6, PIECE = 128; /* of a recording: 24 MB; samples that are sent at once */
-let core;
+let core, held; /* the checksum of the map that was read last */
 
 function problem(error) {
     return { where: error.where || "", message: error.message, status: error.status ?? 1 };
@@ -25,7 +25,7 @@ function record() {
     send();
 }
 
-async function answer({ id, kind, module, scene, axis, point }) {
+async function answer({ id, kind, module, scene, map, axis, point }) {
     try {
         if (kind === "open") {
             core = await Core.open(module, (fraction) => {
@@ -35,6 +35,8 @@ async function answer({ id, kind, module, scene, axis, point }) {
             postMessage({ id, done: true });
             return;
         }
+        if (map && map.checksum !== held)
+            held = core.readMap(map);
         core.setScene(scene);
         if (kind === "motion") {
             record();

@@ -468,6 +468,73 @@ const tests = {
         assert.deepEqual(await page.evaluate(() => [window.festoonLab.lab.track, window.festoonLab.core.value("drive.frequency")]), [null, 17], "a track belongs to its scene");
         await close(page);
     },
+    async "a dropped map is the magnet: in the view, the address, workers and the other frame; a bad one changes nothing; a scene comes with its map"() {
+        const folder = join(SOURCE_DIR, "examples", "magnets"), map = readFileSync(join(folder, "measured-map.csv"), "utf8"), yaml = readFileSync(join(folder, "measured-map.yaml"), "utf8").replace("240", "40").replace("160", "20");
+        const drop = (page, ...files) => page.evaluate(async (list) => {
+            const data = new DataTransfer();
+            list.forEach(([name, text]) => data.items.add(new File([text], name)));
+            await window.festoonLab.lab.files.openAll(data.files);
+            return document.getElementById("notice").textContent;
+        }, files);
+        for (const flat of [false, true]) {
+            const page = await open("#v=1&drive.frequency=14+Hz&magnet.lines=7&run.periods=40&run.discard=20&ui.camera=above", { flat });
+            await page.evaluate(() => window.festoonLab.lab.play(false));
+            const state = () => page.evaluate(() => [window.festoonLab.core.get("magnet.shape"), window.festoonLab.lab.scene["magnet.file"] ?? null, location.hash, window.festoonLab.lab.row[0]]);
+            const red = () => page.evaluate(() => {
+                const { lab } = window.festoonLab, pen = document.createElement("canvas").getContext("2d");
+                lab.draw();
+                pen.drawImage(lab.view.canvas, 0, 0, 300, 150);
+                const { data } = pen.getImageData(0, 0, 300, 150);
+                return [0, 2].map((c) => data.filter((v, i) => i % 4 === c && v > data[i + 2 - 2 * c] + 25).length);
+            });
+            const before = await state();
+            assert.match(await drop(page, ["hole.csv", map.replace(/^.*\n/gm, (line, at) => (at > 9000 && at < 9040 ? "" : line))]), /^hole\.csv: the map has a hole/);
+            assert.match(await drop(page, ["map.h5", "x"]), /^map\.h5: this page reads maps from tables/);
+            assert.match(await drop(page, ["high.csv", map.replaceAll(",18.7,", ",20,")]), /^high\.csv: magnet\.file: the bead's centre moves 18\.7 mm .* taken at 20 mm/);
+            assert.deepEqual(await state(), before, "nothing has changed");
+            assert.match(await drop(page, ["measured-map.csv", map]), /^measured-map\.csv is the magnet now\. The map of magnet\.file has a curl of 0\.\d+: smoothing fits a field without curl\.$/);
+            const [shape, name, hash] = await state();
+            assert.deepEqual([shape, name], ["grid", "measured-map.csv"]);
+            assert.match(hash, /magnet\.shape=grid&magnet\.file=measured-map\.csv&magnet\.checksum=[0-9a-f]{16}/);
+            assert.ok((await red()).every((count) => count > 1000), "its poles are red and blue");
+            await page.waitForFunction(() => window.festoonLab.lab.panels.result?.scene["magnet.shape"] === "grid", { timeout: 0 });
+            assert.match(await page.$eval("#camera-help", (text) => text.textContent), /measured field points up/);
+            await picture(page, `wide-map-${flat ? "flat" : "above"}`);
+            if (!flat) {
+                await click(page, "[data-camera=free]");
+                await picture(page, "wide-map-free");
+                const swept = await page.evaluate(() => window.festoonLab.sweep({ ...window.festoonLab.lab.scene, "run.periods": 10, "run.discard": 5 }, "drive.frequency=10:14:2"));
+                assert.ok(swept.every((row) => row.mean_r > 0.1));
+                await page.select("#p-magnet-shape", "lines");
+                assert.deepEqual((await state()).slice(0, 2), ["lines", null]);
+                await page.select("#p-magnet-shape", "grid");
+                assert.deepEqual((await state()).slice(0, 2), ["grid", "measured-map.csv"]);
+                await click(page, "#beside-open");
+                await page.waitForFunction(() => window.frames.length === 2 && [0, 1].every((i) => window.frames[i].festoonLab?.lab?.playing), { timeout: 0 });
+                assert.deepEqual(await page.evaluate(() => [0, 1].map((i) => window.frames[i].festoonLab.core.get("magnet.shape"))), ["grid", "grid"]);
+                await click(page, "#beside-close");
+                await page.waitForFunction(() => window.frames.length === 0, { timeout: 0 });
+            }
+            await close(page);
+        }
+        const page = await open();
+        const taken = (of) => of.evaluate(() => [window.festoonLab.core.value("drive.frequency"), window.festoonLab.core.get("magnet.shape"), window.festoonLab.core.get("friction.law")]);
+        assert.match(await drop(page, ["mine.yaml", yaml]), /^mine\.yaml: magnet\.file: the page does not have the map measured-map\.csv yet/);
+        assert.match(await drop(page, ["measured-map.csv", map]), /^measured-map\.csv is the magnet now/);
+        assert.deepEqual(await taken(page), [14, "grid", "coulomb"], "of the scene that waited for it");
+        await click(page, "[data-preset=four]");
+        assert.match(await drop(page, ["mine.yaml", yaml], ["measured-map.csv", map]), /^mine\.yaml is open\. The map of magnet\.file has a curl/);
+        assert.deepEqual(await taken(page), [14, "grid", "coulomb"]);
+        const hash = await page.evaluate(() => location.hash);
+        await close(page);
+        const later = await open(hash);
+        assert.match(await later.$eval("#notice", (notice) => notice.textContent), /^magnet\.file: the page does not have the map measured-map\.csv yet: drop its file here\. .*All else/);
+        assert.deepEqual(await taken(later), [14, "lines", "coulomb"]);
+        await drop(later, ["measured-map.csv", map]);
+        assert.deepEqual(await taken(later), [14, "grid", "coulomb"]);
+        assert.match(await later.evaluate(() => location.hash), /magnet\.file=measured-map\.csv&magnet\.checksum=[0-9a-f]{16}/);
+        await close(later);
+    },
     async "a dropped trajectory is played as it was recorded, in its own scene; a change computes anew"() {
         const page = await open(), drop = (name, text) => page.evaluate((n, t) => window.festoonLab.lab.files.open(new File([t], n)), name, text);
         const csv = (...sets) => {

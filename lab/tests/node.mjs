@@ -2,7 +2,7 @@
  * where `make lab` has made them, the library in WebAssembly against the program, and the page.  Started by
  * tests/lab/test_lab.py, which sets FESTOON, SOURCE_DIR and BUILD_DIR. */
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
+import { execFileSync, spawnSync } from "node:child_process";
 import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -535,6 +535,39 @@ const library = {
         refused((whole) => whole.replace("shape: bowl", "shape: bowll"), /bowl/);
         assert.equal(readTrajectory("frame,t [s],x [mm],y [mm]\n"), null);
         core.setScene({});
+    },
+    "a measured field is the magnet of scenes that name it, with the program's digits; another or none is refused and changes nothing"() {
+        const folder = join(SOURCE_DIR, "examples", "magnets"), bytes = readFileSync(join(folder, "measured-map.csv")), scene = { ...readScene(readFileSync(join(folder, "measured-map.yaml"), "utf8")), "run.periods": "20", "run.discard": "10" };
+        core.setScene({ "drive.frequency": 12 });
+        assert.throws(() => core.setScene(scene), (error) => error.where === "magnet.file" && /does not have the map measured-map\.csv yet/.test(error.message));
+        const checksum = core.readMap({ name: "measured-map.csv", bytes });
+        core.setScene({ ...scene, "magnet.file": "somewhere/measured-map.csv" });
+        const run = spawnSync(FESTOON, ["run", "--json", join(folder, "measured-map.yaml"), "--set", "run.periods=20", "--set", "run.discard=10"], { encoding: "utf8" }), own = core.run(), program = JSON.parse(run.stdout);
+        assert.ok(program.scene["magnet.file"].endsWith("measured-map.csv") && program.scene["magnet.checksum"] === checksum);
+        assert.deepEqual({ ...own, scene: { ...own.scene, "magnet.file": "" } }, { ...program, scene: { ...program.scene, "magnet.file": "" } });
+        assert.equal(run.stderr.trim(), `festoon: warning: ${core.mapDoubt()} (festoon field --smooth)`);
+        const { up, radius } = core.mapPicture(64), at = (x, y) => up[32 * 64 + 32 + 64 * y + x];
+        assert.ok(Math.abs(radius * 23 - 60) < 1e-9 && Number.isNaN(up[0]) && up.filter(Number.isFinite).length > 3000);
+        core.start();
+        for (const [x, y] of [[10, 0], [-12, 3], [5, -20]])
+            assert.ok(Math.abs(at(x, y) - core.field(radius * (2 * x + 1) / 64, radius * (2 * y + 1) / 64)[2]) < 1e-12, "x to the right, y upwards");
+        for (const [bad, why] of [[{ "magnet.checksum": "0123456789abcdef" }, /content of this map has changed/], [{ "magnet.file": "other.csv" }, /does not have the map other\.csv/], [{ "bead.radius": "3 mm" }, /the map was taken at 18\.7 mm/]]) {
+            assert.throws(() => core.setScene({ ...scene, ...bad }), why);
+            assert.equal(core.run().mean_r, own.mean_r);
+        }
+        /* The map in use outlives others that are read. */
+        const other = new TextEncoder().encode(bytes.toString().replace(/(?<=,)18\.7(?=,)/g, "20"));
+        for (let i = 0; i < 3; ++i)
+            core.readMap({ name: "measured-map.csv", bytes: other });
+        assert.equal(core.run().mean_r, own.mean_r);
+        assert.throws(() => core.setScene(scene), /taken at 20 mm/);
+        core.setScene({ ...scene, "magnet.checksum": checksum });
+        assert.equal(core.run().mean_r, own.mean_r);
+        const given = festoon("lab", "--print", join(folder, "measured-map.yaml")).trim();
+        core.setScene(readAddress(given.slice(given.indexOf("#")), (key) => core.knows(key)).scene);
+        assert.deepEqual([core.get("magnet.shape"), core.get("magnet.checksum"), core.value("drive.frequency")], ["grid", checksum, 14], "festoon lab names the map");
+        core.setScene({});
+        assert.equal(core.mapDoubt(), "");
     },
     "the points of a grid are those of a sweep"() {
         const base = { "run.periods": 20, "run.discard": 10 }, axis = "drive.frequency=9:20:4", file = join(scratch, "sweep.db");

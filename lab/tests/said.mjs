@@ -32,7 +32,7 @@ const TELLING = ["study/regime.c", "study/conclude.c", "beads/seen.c", "beads/wo
 const LEFT_OUT = /^(; festoons|stays at the axis$|at %.4g, %.4g l|the axis of %d beads|this computation takes one bead|the distance from the axis of)|out of memory/;
 
 /* Patterns that no single text of C holds, because the library puts their sentences together. */
-const MADE = /^(rangeInteger|noRemanence|noMoment|placeBeyond|chain|chainAtAxis|paradox|paradoxDry|mapTwice|oneBead|onePart|oneSample|cluster|alone|oneApart|manyApart|oneEjected|manyEjected|turnsAxis|rateAxis)$/;
+const MADE = /^(rangeInteger|noRemanence|noMoment|placeBeyond|chain|chainAtAxis|paradox|paradoxDry|mapTwice|mapCurl|mapCurlLittle|oneBead|onePart|oneSample|cluster|alone|oneApart|manyApart|oneEjected|manyEjected|turnsAxis|rateAxis)$/;
 
 export const scripts = {
     "every sentence in which a run ends has words in each language"() {
@@ -100,6 +100,15 @@ const BAD = [
     { "magnet.shape": "grid" }, { "magnet.shape": "grid", "magnet.file": "x.csv" }, { "magnet.file": "x.csv" }, { "magnet.file": long }, { "magnet.file": "a\u0001b" },
     { "drive.velocity[0]": 1 }, { "drive.amplitude": "3 deg" }, { "bead.b": 1, "bead.material": "paramagnetic" },
 ];
+/* Maps that are none, by name; each grid of 8 x 8 but for what is bad of it. */
+const grid = (cell = () => "1", places = [-4, -3, -2, -1, 0, 1, 2, 3]) => places.flatMap((y, j) => places.map((x, i) => `${x},${y},${cell(i, j)},0,0`)), table = (rows, head = "x [mm],y [mm],Bx [mT],By [mT],Bz [mT]") => [head, ...rows].join("\n");
+const MAPS = [
+    ["", "m.csv"], [table([]), "m.csv"], [table(grid().slice(1)), "m.csv"], [table([...grid(), "0,0,1,1,1"]), "m.csv"], [table(grid((i, j) => (i + j ? "1" : "oops"))), "m.csv"], [table(grid((i, j) => (i + j ? "1" : ""))), "m.csv"],
+    [table(grid((i, j) => (i + j ? "1" : "1e400"))), "m.csv"], [table(grid((i, j) => (i + j ? "1" : "1e12"))), "m.csv"], [table(grid(undefined, [-4, -3, -2, -1, 0, 1, 2, 5])), "m.csv"], [table(grid(undefined, [1, 2, 3, 4, 5, 6, 7, 8])), "m.csv"],
+    [table(grid(undefined, [-1, 0, 1])), "m.csv"], [table(["1,2,3", "4,5,6"]), "m.csv"], [table(["1,2,3,4,5,6"]), "m.csv"], [table(["1,1,1,1,1", "2,3,1,1,1", "5,7,1,1,1"]), "m.csv"],
+    [table(grid(), "x [mm],y [mm],Bx [mT],By [mT]"), "m.csv"], [table(grid(), "x,y [mm],Bx [mT],By [mT],Bz [mT]"), "m.csv"], [table(grid(), "x [mm],y [mm],Bx [furlong],By [mT],Bz [mT]"), "m.csv"], [table(grid(), "x [mm],y [mm],Bx [mT],Bx [mT],By [mT],Bz [mT]"), "m.csv"], ["x", "m.h5"], ["# vtk", "m.vtk"],
+    [`${"1,".repeat(2000)}\n`, "m.csv"],
+];
 const VALUES = ["", "x", "1e400", "-1e9", "0", "1e9", "2.5", "1,5", "1,000.5", "12 parsec", "12 mm", long];
 const AXES = ["2:30:x", "x:30:3", "2:30:1e9", ":30:5", "2 3:30:5", "-1:30:5", "2:30:3:x", "2,3:30:5", "2:30:200000"];
 /* Runs that end in sentences of all kinds, and are short. */
@@ -124,6 +133,16 @@ export const library = (core) => ({
         core.setScene({});
         for (const axis of AXES)
             assert.ok(hear(() => core.grid(`drive.frequency=${axis}`)), axis);
+        for (const [text, name] of MAPS)
+            assert.ok(hear(() => core.readMap({ name, bytes: new TextEncoder().encode(text) })), `${name}: ${text.slice(0, 99)}`);
+        core.readMap({ name: "flat.csv", bytes: new TextEncoder().encode(table(grid((i, j) => String(i * j)))) });
+        const measured = { "magnet.shape": "grid", "magnet.file": "flat.csv", "bead.remanence": "1.2 T", "start.r": 0.12 };
+        core.setScene(measured);
+        const doubt = core.mapDoubt();
+        assert.match(doubt, /has a curl of/);
+        for (const scene of [{ "magnet.file": "other.csv" }, { "magnet.checksum": "0123456789abcdef" }, { "friction.law": "coulomb", "impact.restitution": 0.5 }])
+            assert.ok(hear(() => core.setScene({ ...measured, ...scene })), JSON.stringify(scene));
+        core.setScene({});
         assert.ok(errors.size > 600, String(errors.size));
         const found = RUNS.flatMap((scene) => {
             core.setScene(scene);
@@ -138,7 +157,7 @@ export const library = (core) => ({
                 assert.ok(!MARKED.test(text), `${language}: ${text}`);
                 assert.ok(!/\{\w+\}|undefined/.test(text), text);
             }
-            for (const [text, table] of found)
+            for (const [text, table] of [...found, [doubt, "sentences"]])
                 assert.ok(!MARKED.test(told(text, table)), `${language}: ${text}`);
         });
     },

@@ -100,13 +100,9 @@ static void warn_of_empty(const char *path)
 
 static void warn_of_map(const fst_field_map *map)
 {
-    const double curl = fst_field_map_describe(map).curl;
-    if (curl > 1e-3)
-        (void)fprintf(stderr, "festoon: warning: the map of magnet.file has a curl of %.2g: %s\n", curl,
-                      curl > 0.1
-                          ? "a magnet's field has none: much noise (festoon field --smooth), or columns or "
-                            "axes exchanged?"
-                          : "festoon field --smooth fits a field without curl");
+    char doubt[256];
+    if (fst_field_map_doubt(map, doubt, sizeof doubt))
+        (void)fprintf(stderr, "festoon: warning: %s (festoon field --smooth)\n", doubt);
 }
 
 /* The map of the scene, which lives until the command is done. */

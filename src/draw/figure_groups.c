@@ -15,7 +15,7 @@ enum {
     MOST_POINTS = 6000,  /* of a curve */
     USUAL_HEIGHT = 170,  /* of a panel */
     HEIGHT_OF_PAIR = 17, /* of the panel of contacts */
-    NAME_SIZE = 40
+    NAME_SIZE = 44
 };
 
 /* A chart being made. */

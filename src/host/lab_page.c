@@ -102,8 +102,6 @@ static int is_of_this_version(const char *path)
 fst_status fst_lab_address(const fst_params *params, char address[FST_LAB_ADDRESS_SIZE], fst_error *error)
 {
     char path[FST_LAB_ADDRESS_SIZE];
-    if (params->magnet_shape == FST_MAGNET_GRID)
-        return fst_fail(error, FST_BAD_INPUT, "magnet.shape", "the page reads no measured map of a magnet");
     if (!find_page(path))
         return fst_fail(
             error, FST_UNAVAILABLE, PAGE,

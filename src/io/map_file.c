@@ -26,6 +26,19 @@ static fst_status read_points(const char *text, size_t size, fst_map_points *poi
     return fst_map_points_refuse(points, "the name of a map ends in .csv, .txt, .vtk or .h5");
 }
 
+fst_status fst_map_lend(fst_params *params, fst_field_map *map, const char checksum[17], fst_error *error)
+{
+    if (params->magnet_checksum[0] && strcmp(params->magnet_checksum, checksum) != 0)
+        return fst_fail(
+            error, FST_BAD_INPUT, params->magnet_file,
+            "the content of this map has changed: its checksum is %s, and the scene's magnet.checksum is "
+            "%s: restore the map, or remove magnet.checksum from the scene",
+            checksum, params->magnet_checksum);
+    memcpy(params->magnet_checksum, checksum, sizeof params->magnet_checksum);
+    params->magnet_map = map;
+    return FST_OK;
+}
+
 fst_status fst_field_map_read(const char *path, const fst_progress *progress, fst_field_map **map,
                               char checksum[17], fst_error *error)
 {
@@ -54,19 +67,12 @@ fst_status fst_params_read_map(fst_params *params, const fst_progress *progress,
     *map = NULL;
     if (!params->magnet_file[0])
         return FST_OK;
-    const fst_status status = fst_field_map_read(params->magnet_file, progress, map, checksum, error);
-    if (status != FST_OK)
-        return status;
-    if (params->magnet_checksum[0] && strcmp(params->magnet_checksum, checksum) != 0) {
+    fst_status status = fst_field_map_read(params->magnet_file, progress, map, checksum, error);
+    if (status == FST_OK)
+        status = fst_map_lend(params, *map, checksum, error);
+    if (status != FST_OK) {
         fst_field_map_free(*map);
         *map = NULL;
-        return fst_fail(
-            error, FST_BAD_INPUT, params->magnet_file,
-            "the content of this map has changed: its checksum is %s, and the scene's magnet.checksum is "
-            "%s: restore the map, or remove magnet.checksum from the scene",
-            checksum, params->magnet_checksum);
     }
-    memcpy(params->magnet_checksum, checksum, sizeof checksum);
-    params->magnet_map = *map;
-    return FST_OK;
+    return status;
 }

@@ -38,6 +38,9 @@ fst_status fst_map_points_refuse(const fst_map_points *points, const char *forma
  * hole, a sample that is there twice, unequal spacing; the sentence says which and where. */
 fst_status fst_map_points_arrange(const fst_map_points *points, fst_field_map **map);
 
+/* Let the parameters use a map of a checksum.  FST_BAD_INPUT: they have another magnet.checksum. */
+fst_status fst_map_lend(fst_params *params, fst_field_map *map, const char checksum[17], fst_error *error);
+
 /* Readers, a format each: add the samples of a file. */
 fst_status fst_map_csv_read(const char *text, size_t size, fst_map_points *points);
 fst_status fst_map_vtk_read(const char *text, size_t size, fst_map_points *points);

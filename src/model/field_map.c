@@ -19,6 +19,7 @@
 #include "model/field_map.h"
 
 #include <stdatomic.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -210,6 +211,16 @@ static double curl_of(const fst_map_plane *plane)
 fst_field_map_facts fst_field_map_describe(const fst_field_map *map)
 {
     return map->facts;
+}
+
+int fst_field_map_doubt(const fst_field_map *map, char *sentence, size_t size)
+{
+    const double curl = map->facts.curl;
+    if (!(curl > 1e-3))
+        return 0;
+    return snprintf(sentence, size, "the map of magnet.file has a curl of %.2g: %s", curl,
+                    curl > 0.1 ? "a magnet's field has none: much noise, or columns or axes exchanged?"
+                               : "smoothing fits a field without curl");
 }
 
 static double radius_of(const fst_field_samples *s)

@@ -14,6 +14,7 @@ export default {
         magnet: "Man dreht sich mit dem Magneten: Er steht still, und aus den Girlanden wird eine geschlossene Schleife.",
         bead: "Man fährt mit der Kugel mit: An ihren Marken sieht man, ob sie rollt, gleitet oder haftet.",
     },
+    mapTaken: "{name} ist jetzt der Magnet.", mapColours: "Rot und blau ist, wo das gemessene Feld nach oben und nach unten zeigt.",
     drag: "Teile des Magneten lassen sich mit dem Zeiger verschieben.",
     presets: "Versuche", details: "Im Einzelnen",
     presetNames: {
@@ -49,7 +50,7 @@ export default {
     parameters: "Alle Größen", main: "Wichtigste Größen",
     view: "Ansicht", files: "Speichern und Öffnen",
     saveCsv: "Bewegung (CSV)", savePng: "Bild (PNG)", saveFilm: "Film aufnehmen (WebM)", stopFilm: "Aufnahme beenden", saveScene: "Szene (YAML)",
-    open: "Szene oder Messspur öffnen", openHelp: "Oder eine Datei irgendwo auf die Seite ziehen. Eine gemessene Spur wird weiß über das Modell gezeichnet, eine Trajektorie von festoon run (CSV) abgespielt.",
+    open: "Szene oder Messspur öffnen", openHelp: "Oder eine Datei irgendwo auf die Seite ziehen. Eine gemessene Spur wird weiß über das Modell gezeichnet, eine Trajektorie von festoon run (CSV) abgespielt. Ein gemessenes Feld als Tabelle (x, y, Bx, By, Bz) wird zum Magneten.",
     copy: "Link kopieren", copied: "Der Link ist in der Zwischenablage.", copyFailed: "Der Link steht in der Adresszeile.",
     trackShown: "{n} Orte der Messspur sind weiß gezeichnet, um den Mittelpunkt ihres am besten passenden Kreises.",
     trackInPixels: "Sie ist in Pixeln angegeben; deshalb wurde ihre Größe der Spur des Modells angepasst.",

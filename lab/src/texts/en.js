@@ -15,6 +15,7 @@ export default {
         magnet: "You ride with the magnet: it stands still, and a festoon pattern becomes a closed loop.",
         bead: "You ride with the bead: watch its marks to see it roll, slip or stick.",
     },
+    mapTaken: "{name} is the magnet now.", mapColours: "Red and blue is where the measured field points up and down.",
     drag: "Drag a part of the magnet to move it.",
     presets: "Experiments", details: "In detail",
     presetNames: {
@@ -50,7 +51,7 @@ export default {
     parameters: "All parameters", main: "Main controls",
     view: "View", files: "Save and open",
     saveCsv: "Motion (CSV)", savePng: "Picture (PNG)", saveFilm: "Record film (webm)", stopFilm: "Stop recording", saveScene: "Scene (YAML)",
-    open: "Open a scene or a track", openHelp: "Or drop a file anywhere on the page. A track is drawn in white over the model, a trajectory of festoon run (CSV) is played.",
+    open: "Open a scene or a track", openHelp: "Or drop a file anywhere on the page. A track is drawn in white over the model, a trajectory of festoon run (CSV) is played. A measured field as a table (x, y, Bx, By, Bz) becomes the magnet.",
     copy: "Copy the link", copied: "The link is in the clipboard.", copyFailed: "The link is in the address line.",
     trackShown: "{n} places of the track are drawn in white, about the centre of their best circle.",
     trackInPixels: "It is in pixels, so its size was matched to the model's trail.",

@@ -14,6 +14,7 @@ export default {
         magnet: "Giras con el imán: está quieto, y los festones se convierten en un lazo cerrado.",
         bead: "Acompañas a la bola: sus marcas muestran si rueda, se desliza o se adhiere.",
     },
+    mapTaken: "{name} es ahora el imán.", mapColours: "En rojo y azul, el campo medido apunta hacia arriba y hacia abajo.",
     drag: "Arrastra una parte del imán para moverla.",
     presets: "Experimentos", details: "En detalle",
     presetNames: {
@@ -49,7 +50,7 @@ export default {
     parameters: "Todos los parámetros", main: "Controles principales",
     view: "Vista", files: "Guardar y abrir",
     saveCsv: "Movimiento (CSV)", savePng: "Imagen (PNG)", saveFilm: "Grabar vídeo (WebM)", stopFilm: "Parar la grabación", saveScene: "Escena (YAML)",
-    open: "Abrir una escena o una trayectoria", openHelp: "O suelta un archivo en cualquier lugar de la página. Una trayectoria medida se dibuja en blanco sobre el modelo; un archivo CSV de festoon run se reproduce.",
+    open: "Abrir una escena o una trayectoria", openHelp: "O suelta un archivo en cualquier lugar de la página. Una trayectoria medida se dibuja en blanco sobre el modelo; un archivo CSV de festoon run se reproduce. Un campo medido en una tabla (x, y, Bx, By, Bz) pasa a ser el imán.",
     copy: "Copiar el enlace", copied: "El enlace está en el portapapeles.", copyFailed: "El enlace está en la barra de direcciones.",
     trackShown: "{n} puntos de la trayectoria están dibujados en blanco, en torno al centro del círculo que mejor se les ajusta.",
     trackInPixels: "Está en píxeles, así que su tamaño se ha ajustado al rastro del modelo.",

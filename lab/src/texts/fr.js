@@ -18,6 +18,7 @@ export default typeset({
         magnet: "Vous tournez avec l’aimant : il reste immobile, et les festons deviennent une boucle fermée.",
         bead: "Vous accompagnez la bille : ses repères montrent si elle roule, glisse ou adhère.",
     },
+    mapTaken: "{name} est maintenant l’aimant.", mapColours: "En rouge et en bleu, le champ mesuré pointe vers le haut et vers le bas.",
     drag: "Faites glisser une partie de l’aimant pour la déplacer.",
     presets: "Expériences", details: "En détail",
     presetNames: {
@@ -53,7 +54,7 @@ export default typeset({
     parameters: "Tous les paramètres", main: "Réglages principaux",
     view: "Vue", files: "Enregistrer et ouvrir",
     saveCsv: "Mouvement (CSV)", savePng: "Image (PNG)", saveFilm: "Filmer (WebM)", stopFilm: "Arrêter le film", saveScene: "Scène (YAML)",
-    open: "Ouvrir une scène ou une trajectoire", openHelp: "Ou déposez un fichier n’importe où sur la page. Une trajectoire mesurée est tracée en blanc par-dessus le modèle, un fichier CSV de festoon run est rejoué.",
+    open: "Ouvrir une scène ou une trajectoire", openHelp: "Ou déposez un fichier n’importe où sur la page. Une trajectoire mesurée est tracée en blanc par-dessus le modèle, un fichier CSV de festoon run est rejoué. Un champ mesuré en tableau (x, y, Bx, By, Bz) devient l’aimant.",
     copy: "Copier le lien", copied: "Le lien est dans le presse-papiers.", copyFailed: "Le lien est dans la barre d’adresse.",
     trackShown: "{n} points de la trajectoire sont tracés en blanc, autour du centre du cercle qui leur convient le mieux.",
     trackInPixels: "Elle est en pixels : sa taille a donc été ajustée à la trace du modèle.",

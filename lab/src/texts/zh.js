@@ -14,6 +14,7 @@ export default {
         magnet: "你随磁铁一起转动：磁铁静止不动，一段段花彩变成一条闭合曲线。",
         bead: "你跟随小球一起运动：看球上的标记，就知道它是在滚动、滑动还是被黏住。",
     },
+    mapTaken: "{name} 现在是磁铁。", mapColours: "红色和蓝色处，实测磁场指向上方和下方。",
     drag: "拖动磁铁的某一部分即可移动它。",
     presets: "实验项目", details: "详细说明",
     presetNames: {
@@ -49,7 +50,7 @@ export default {
     parameters: "全部参数", main: "主要参数",
     view: "视图", files: "保存与打开",
     saveCsv: "运动数据（CSV）", savePng: "图片（PNG）", saveFilm: "录制视频（WebM）", stopFilm: "停止录制", saveScene: "场景（YAML）",
-    open: "打开场景或轨迹", openHelp: "也可以把文件拖到页面的任意位置。实测轨迹以白色画在模型之上；festoon run 的 CSV 文件则会播放。",
+    open: "打开场景或轨迹", openHelp: "也可以把文件拖到页面的任意位置。实测轨迹以白色画在模型之上；festoon run 的 CSV 文件则会播放。实测磁场的表格（x、y、Bx、By、Bz）会成为磁铁。",
     copy: "复制链接", copied: "链接已在剪贴板中。", copyFailed: "链接在地址栏中。",
     trackShown: "已用白色画出轨迹的 {n} 个位置，以最佳拟合圆的圆心为中心。",
     trackInPixels: "轨迹以像素为单位，其大小已按模型的轨迹调整。",

@@ -157,7 +157,6 @@ export default {
         paradoxDry: "{way} at t = {t} {found} of {n} contacts with dry friction; run.method: stepping goes on",
         /* a measured map */
         mapNeeded: "grid needs the map of the field: give magnet.file",
-        mapUnread: "the map {file} has not been read",
         mapHeight: "the bead's centre moves {mm} mm over the magnet's reference plane, but the map was taken at {map} mm: take one there, or change magnet.depth",
         mapFlight: "a bead that flies needs the field above the plate, and the map has one plane: leave impact.restitution out",
         mapFew: "the map has {count} along {x}: splines of degree 7 need at least {least}",
@@ -166,6 +165,10 @@ export default {
         mapUneven: "the samples are unevenly spaced along {x}: {n} mm follows on {before} mm, {step} mm further, where the first step is {usual} mm: a map is a full rectangular grid of equal steps",
         mapHole: "the map has a hole: the {n} samples fill a grid of {grid} but for {holes} of its places, and there is none at {place}",
         mapTwice: "this sample at {place} is there twice: first as line {n}",
+        mapAway: "the page does not have the map {file} yet: drop its file here",
+        mapFormat: "this page reads maps from tables (.csv, .txt), not from HDF5 or VTK: festoon field --csv makes a table of any map",
+        mapCurl: "the map of magnet.file has a curl of {n}: a magnet's field has none: much noise, or columns or axes exchanged?",
+        mapCurlLittle: "the map of magnet.file has a curl of {n}: smoothing fits a field without curl",
         mapEmpty: "this map has no samples",
         mapLoose: "the {n} samples are at {x} different x, {y} different y and {z} different z: a map is a full rectangular grid",
         mapChanged: "the content of this map has changed: its checksum is {now}, and the scene's magnet.checksum is {before}: restore the map, or remove magnet.checksum from the scene",
