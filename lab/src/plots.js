@@ -79,12 +79,16 @@ export class Plot {
         pen.strokeStyle = ink.frame;
         pen.strokeRect(left, top, right - left, bottom - top);
         pen.fillStyle = ink.text;
+        this.words(title || yLabel || "", left, left, top - 8);
+        if (xTicks && xLabel)
+            this.words(xLabel, (left + right - pen.measureText(xLabel).width) / 2, 2, bottom + 31);
+    }
+
+    /* A line of words from a place on, if it fits; else it begins farther left, at `least` at most, and is narrowed. */
+    words(text, left, least, y) {
+        const { pen, width } = this, right = width - 2, wide = pen.measureText(text).width;
         pen.textAlign = "left";
-        pen.fillText(title || yLabel || "", left, top - 8);
-        if (xTicks && xLabel) {
-            pen.textAlign = "center";
-            pen.fillText(xLabel, (left + right) / 2, bottom + 31);
-        }
+        pen.fillText(text, Math.max(least, Math.min(left, right - wide)), y, right - least);
     }
 
     atX(value) {
@@ -139,9 +143,8 @@ export class Plot {
 
     note(text) {
         this.pen.fillStyle = this.ink.text;
-        this.pen.textAlign = "center";
         this.pen.font = "13px system-ui, sans-serif";
-        this.pen.fillText(text, this.width / 2, this.height / 2);
+        this.words(text, (this.width - this.pen.measureText(text).width) / 2, 2, this.height / 2);
     }
 }
 

@@ -115,7 +115,18 @@ async function nothingOverlaps(page, where) {
             pen.font = `${style.fontSize} ${style.fontFamily}`;
             return [...select.options].filter((option) => pen.measureText(option.text).width > select.clientWidth - 38).map((option) => `cut in its list: ${option.text}`);
         });
-        return [...cut, ...over, ...chosen];
+        const { lab } = window.festoonLab, { canvas, plot } = lab.panels, inPlot = [], usual = canvas.pen.fillText;
+        canvas.pen.fillText = (text, x, y, room = Infinity) => {
+            const wide = Math.min(room, canvas.pen.measureText(text).width), left = x - { left: 0, center: wide / 2, right: wide }[canvas.pen.textAlign];
+            if (left < 0 || left + wide > canvas.width + 0.5)
+                inPlot.push(`cut in the plot: ${text}`);
+        };
+        if (canvas.width)
+            for (const name of ["phi", "sweep", "path", plot])
+                lab.panels.choosePlot(name);
+        canvas.pen.fillText = usual;
+        lab.panels.choosePlot(plot);
+        return [...cut, ...over, ...chosen, ...inPlot];
     });
     assert.deepEqual(bad, [], where);
 }

@@ -12,7 +12,7 @@ export default {
         noUnit: "“{text}”带有单位“{unit}”，但这个值是没有单位的数",
         range: "{key} = {value} 超出范围：必须在 {least} 到 {most} 之间",
         rangeInteger: "{key} = {value} 超出范围：必须是 {least} 到 {most} 的整数",
-        bare: "{rest}，而 {value} 不带单位即为 {read}；您是指 {meant} 吗？",
+        bare: "{rest}，而 {value} 不带单位即为 {read}；你是指 {meant} 吗？",
         rangeOfPart: "{rest}（{kind}有{sizes}）",
         choice: "“{text}”不是可选项；{hint}",
         longText: "这段文字超过 {n} 字节",
