@@ -67,7 +67,7 @@ export default {
         startN: "start.n ist keine Richtung: Seine Länge ist {n}",
         startField: "das Feld des Magneten verschwindet am Start, darum gibt es dort kein n = B/|B|: start.r oder start.phi verschieben",
         startRolling: "frei rollend kann die Kugel bei start.r = {value} mit eps = {eps} nicht starten: start.r > eps wählen oder start.spin = rest",
-        startOnPlate: "eine einzelne Kugel bewegt sich auf der Platte: Ihr Mittelpunkt startet {n} l darüber, so hoch, wie er in Ruhe liegt (start.position[2]), und start.velocity[2] ist 0",
+        threeDimensions: "{key} verlangt eine Kugel in drei Dimensionen, die run, locked, orbit und branch kennen; diese Rechnung gilt einer Kugel auf einer ebenen Platte in Luft",
         below: "Kugel {n} startet {depth} l unter ihrem Platz auf der Platte",
         inMagnet: "Kugel {n} startet im Magneten oder berührt ihn: Ihr Mittelpunkt muss weiter von ihm entfernt sein als ihr Radius von {radius} l",
         beyondPlate: "Kugel {n} mit dem Radius {radius} l startet jenseits von plate.radius",

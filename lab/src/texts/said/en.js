@@ -74,7 +74,7 @@ export default {
         startN: "start.n is no direction: it has the length {n}",
         startField: "the magnet's field vanishes at the start, so n = B/|B| does not exist there: move start.r or start.phi",
         startRolling: "a free-rolling start does not exist at start.r = {value} with eps = {eps}: choose start.r > eps, or start.spin = rest",
-        startOnPlate: "one bead moves on the plate: its centre starts {n} l above it, as high as it is at rest (start.position[2]), and start.velocity[2] is 0",
+        threeDimensions: "{key} asks for a bead in three dimensions, which run, locked, orbit and branch know; this computation is one of a bead on a flat plate in air",
         below: "bead {n} starts {depth} l below its place on the plate",
         inMagnet: "bead {n} starts inside the magnet, or touches it: its centre must be farther from it than its radius of {radius} l",
         beyondPlate: "bead {n}, of the radius {radius} l, starts beyond plate.radius",

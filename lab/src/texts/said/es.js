@@ -67,7 +67,7 @@ export default {
         startN: "start.n no es una dirección: su longitud es {n}",
         startField: "el campo del imán se anula al comienzo, así que allí no existe n = B/|B|: mueve start.r o start.phi",
         startRolling: "un comienzo rodando libremente no existe en start.r = {value} con eps = {eps}: elige start.r > eps, o start.spin = rest",
-        startOnPlate: "una sola bola se mueve sobre la placa: su centro empieza {n} l por encima, a su altura en reposo (start.position[2]), y start.velocity[2] es 0",
+        threeDimensions: "{key} pide una bola en tres dimensiones, que conocen run, locked, orbit y branch; este cálculo es el de una bola sobre una placa plana en aire",
         below: "la bola {n} empieza {depth} l por debajo de su sitio en la placa",
         inMagnet: "la bola {n} empieza dentro del imán, o lo toca: su centro debe estar más lejos de él que su radio de {radius} l",
         beyondPlate: "la bola {n}, de radio {radius} l, empieza más allá de plate.radius",

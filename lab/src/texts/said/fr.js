@@ -67,7 +67,7 @@ export default {
         startN: "start.n n’est pas une direction : sa longueur est {n}",
         startField: "le champ de l’aimant s’annule au départ, donc n = B/|B| n’y existe pas : déplacez start.r ou start.phi",
         startRolling: "un départ en roulement libre n’existe pas à start.r = {value} avec eps = {eps} : choisissez start.r > eps, ou start.spin = rest",
-        startOnPlate: "une seule bille se meut sur la plaque : son centre part {n} l au-dessus, à sa hauteur au repos (start.position[2]), et start.velocity[2] est 0",
+        threeDimensions: "{key} demande une bille en trois dimensions, que connaissent run, locked, orbit et branch ; ce calcul est celui d’une bille sur une plaque plane dans l’air",
         below: "la bille {n} part {depth} l sous sa place sur la plaque",
         inMagnet: "la bille {n} part dans l’aimant, ou le touche : son centre doit en être plus loin que son rayon de {radius} l",
         beyondPlate: "la bille {n}, de rayon {radius} l, part au-delà de plate.radius",

@@ -67,7 +67,7 @@ export default {
         startN: "start.n 不是方向：它的长度是 {n}",
         startField: "磁铁的磁场在起点为零，所以那里没有 n = B/|B|：请移动 start.r 或 start.phi",
         startRolling: "在 eps = {eps} 时，start.r = {value} 处不存在自由滚动的起始状态：请选择 start.r > eps，或 start.spin = rest",
-        startOnPlate: "单个小球在平板上运动：它的中心从板上方 {n} l 开始，即静止时的高度 (start.position[2])，且 start.velocity[2] 为 0",
+        threeDimensions: "{key} 要求三维中的小球，run、locked、orbit 和 branch 能处理；这里计算的是空气中平板上的一个小球",
         below: "小球 {n} 的起点比它在平板上的位置低 {depth} l",
         inMagnet: "小球 {n} 的起点在磁铁内或碰到磁铁：它的中心到磁铁的距离必须大于它的半径 {radius} l",
         beyondPlate: "小球 {n}（半径 {radius} l）的起点在 plate.radius 之外",
