@@ -214,11 +214,6 @@ def scales_of(params: Any, units: Optional[str]) -> Scales:
     return Scales(params, units or "scaled")
 
 
-def key_unit(key: str) -> str:
-    """The unit of a number in the rows of a sweep; "": it is a word, or has none."""
-    return text_of(lib.fst_sweep_key_unit(key.encode()))
-
-
 def pointer_of(struct: Any) -> Any:
     """A pointer to a struct, whichever of both it is."""
     return struct if ffi.typeof(struct).kind == "pointer" else ffi.addressof(struct)

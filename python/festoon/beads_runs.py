@@ -12,7 +12,8 @@ from ._native import Watch, call, ffi, lent, lib, options_of, path_bytes, take_t
 from ._pickled import Printed
 from ._progress import Progress
 from ._quantities import quantity, units_of
-from ._tabled import NUMBERS, Column, Shown, Table, about, data_of, frame_of, key_unit, numbers_of, scaled_columns, scales_of
+from ._tabled import NUMBERS, Column, Shown, Table, about, data_of, frame_of, numbers_of, scaled_columns, scales_of
+from ._tables import RESULTS
 from .bead import Bead
 from .beads_trajectories import trajectory_of
 
@@ -205,8 +206,8 @@ class WorldRun(Shown, _Ran):
         told = {name: _number(value) for name, value in self._told.items() if not isinstance(value, (list, dict))}
         told["symmetry"] = self._told["symmetry"] or ""
         values = {**told, **numbers_of(np.array(self._told["final_state"]), before="final_")}
-        known = {name: key_unit(name) for name in told if not isinstance(told[name], str)}
-        known.update(UNITS, final_time="1/gamma", end_time="1/gamma", mean_velocity="l gamma", mean_velocity_error="l gamma")
+        known = {name: RESULTS[name][0] if name in RESULTS else "1" for name in told if not isinstance(told[name], str)}
+        known.update(UNITS, mean_height="l", mean_medium_power="l^2 gamma^3", final_time="1/gamma", end_time="1/gamma", mean_velocity="l gamma", mean_velocity_error="l gamma")
         return Table((), {}, scaled_columns((), values, known, scales_of(self.bead._params, units)), about(self.bead.scene()))
 
     def __getattr__(self, name: str) -> Any:

@@ -8,7 +8,7 @@ from ._errors import BadInput
 from ._native import lent, lib, text_of
 from ._pickled import Told
 from ._quantities import Scales
-from ._tabled import Column, Table, Tabled, about, key_unit, scaled_columns
+from ._tabled import NUMBERS, Column, Table, Tabled, about, numbers_of, scaled_columns
 from .bead import Bead, keyword_of, row_of
 
 
@@ -71,6 +71,7 @@ class SweepTable(Tabled, Told):
         self.dims = tuple(self._sizes)
         self._base = Bead._unmade(lib.fst_grid_base(grid)[0])
         self._rows = rows
+        self._units = {name: text_of(lib.fst_sweep_key_unit(grid, name.encode())) for name in (rows[0] if rows else ())}
 
     @property
     def shape(self) -> Tuple[int, ...]:
@@ -121,8 +122,12 @@ class SweepTable(Tabled, Told):
         """Parameters are in SI or scaled, as they are given."""
         coords = coords_of(self.axes, self.dims, np.arange(int(np.prod(self.shape))).reshape(self.shape))
         values = {name: self[name] for name in self.columns if name not in (*coords, *(axis.key for axis in self.axes))}
-        known = {name: key_unit(name) for name, column in values.items() if column.dtype.kind == "f"}
+        states = values.pop("final_state", None)
+        known = {name: self._units[name] for name, column in values.items() if column.dtype.kind == "f"}
         known.update({name: "mm" for name in values if name.endswith("_mm")}, **{name: "deg" for name in values if name.endswith("_deg")})
+        if states is not None:
+            values.update(numbers_of(states, before="final_"))
+            known.update({f"final_{name}": unit for name, unit in NUMBERS.items()})
         scales = scales_over(self.axes, self._base._params, units)
         return Table(self.dims, coords, scaled_columns(self.dims, values, known, scales, {}), about(self._base.scene()))
 

@@ -187,6 +187,14 @@ def test_a_branch_from_a_file_has_units_too(results, tmp_path):
     assert again.lab.unit("value") == "1" and branch.to_xarray().value.attrs["long_name"] == "drive.omega"
 
 
+def test_final_states_of_a_sweep_of_worlds():
+    world = fs.World(plate__shape="bowl", plate__bowl_radius="200 mm", run__periods=2, run__discard=1)
+    s = fs.sweep(world, frequency=[9, 10])
+    frame = s.to_pandas("lab")
+    assert np.allclose(frame.final_WX, s.final_state[:, 9] * GAMMA / (2 * math.pi), rtol=1e-12)
+    assert frame.attrs["units"]["final_Z"] == "mm" and pickle.loads(pickle.dumps(s)) == s
+
+
 def test_measured_lengths(results):
     track = next(one for one in results if isinstance(one, fs.Track))
     assert track.to_xarray("si").x.attrs["units"] == "m" and np.allclose(track.to_pandas("si").x, track.x / 1e3)
