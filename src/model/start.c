@@ -157,9 +157,9 @@ fst_status fst_start_state(const fst_params *params, const fst_model *model, dou
                         "this computation takes one bead that no list holds, and the scene has a list of %d: "
                         "leave beads out",
                         params->bead_count);
-    fst_status status = fst_check_no_world(params, error);
-    if (status == FST_OK)
-        status = fst_start(fst_params_settled(params, &room), model, model->world.height, &start, error);
+    fst_status status = fst_start(fst_params_settled(params, &room), model, model->world.height, &start, error);
+    if (status == FST_OK && (start.x[2] != 0.0 || start.v[2] != 0.0))
+        status = fst_check_no_world(params, error);
     if (status != FST_OK)
         return status;
     memcpy(state + FST_X, start.x, 2 * sizeof *state);
