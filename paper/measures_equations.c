@@ -115,7 +115,7 @@ VISCOUS(centre_equations, FOLD15, share(along_path(m).centre), "%s", "");
 
 VISCOUS(turning_equations, FOLD15, share(along_path(m).printed),
         "root mean square along the motion at the drive 0.4. A bead has ψ′ n × n′ on the right of Eq. (7) as "
-        "well: ψ′ is no rate of a coordinate, so that Lagrange's equations for n and ψ are not enough");
+        "well: ψ′ is not a rate of a coordinate, so that Lagrange's equations for n and ψ are not enough");
 
 VISCOUS(euler_equation, FOLD15, share(along_path(m).euler), "the same motion");
 

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static const double STANDS = 1e-4; /* a mean |alpha'| below this, in units of omega, is no circling */
+static const double STANDS = 1e-4; /* a mean |alpha'| below this, in units of omega, is not circling */
 
 typedef struct followed {
     fst_model *model;

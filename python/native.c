@@ -169,7 +169,7 @@ int pyf_row_fail(pyf_row *row, const char *where, const char *sentence)
 }
 
 /* A failure of a run is what its row says; without memory for the sentence the row still has the status.  A run that
- * gets no memory is no row, because the same run has a row on a machine with more memory. */
+ * gets no memory is not a row, because the same run has a row on a machine with more memory. */
 static void keep(pyf_batch *batch, int64_t point, fst_status status, const fst_run_result *result,
                  const fst_error *error)
 {

@@ -45,7 +45,7 @@ extern "C" {
 /* Increased when the same parameters give other bits than before: the first is the version of the laws viscous
  * and none, the second that of dry friction (coulomb, rolling).  A sweep that was begun by another version is
  * not continued. */
-#define FST_RESULTS_VERSION 12
+#define FST_RESULTS_VERSION 13
 #define FST_DRY_RESULTS_VERSION 15
 
 /* "0.1.0": the version of the library that is running. */
@@ -267,7 +267,7 @@ FST_API const char *fst_unit_accepted(fst_unit unit);
  * value is more in it than in SI (3). */
 FST_API const char *fst_unit_customary(fst_unit unit, int *power);
 
-/* Read a value with an optional unit, "2.5 mm".  FST_BAD_INPUT: it is no number, has a wrong unit, or something
+/* Read a value with an optional unit, "2.5 mm".  FST_BAD_INPUT: it is not a number, has a wrong unit, or something
  * follows it. */
 FST_API fst_status fst_parse_value(const char *text, fst_unit unit, double *value, fst_error *error);
 
@@ -397,7 +397,7 @@ FST_API const char *fst_name_at(const char *names, int place, size_t *length);
 
 /* Make a text from outside harmless for a terminal, a figure or a page.  A '?' replaces each control character
  * (also U+0080 to U+009F, which terminals obey, line and paragraph separators, and marks that turn the
- * direction of writing) and each byte that is no UTF-8.  The result is one line of UTF-8, never longer than
+ * direction of writing) and each byte that is not UTF-8.  The result is one line of UTF-8, never longer than
  * before.  Every fst_error has been through this function. */
 FST_API void fst_text_tame(char *text);
 

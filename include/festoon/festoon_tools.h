@@ -91,7 +91,7 @@ FST_API fst_status fst_branch_write(const char *path, const fst_params *params, 
                                     fst_error *error);
 
 /* Read a branch back from the JSON above (crossings come after the other special points).  FST_BAD_INPUT: the
- * file is no branch, or a member has a value that it cannot have; the sentence names both.  FST_IO: the disk
+ * file is not a branch, or a member has a value that it cannot have; the sentence names both.  FST_IO: the disk
  * failed. */
 FST_API fst_status fst_branch_read(const char *path, fst_branch *branch, fst_error *error);
 

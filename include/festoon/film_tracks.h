@@ -98,7 +98,7 @@ typedef struct fst_film_track_report {
  * shows all of them gives them their order, from the left to the right, and each keeps its place in it, but for what
  * report->doubts tells.  Frames count from 0; times are those of the film; y points up in the picture.  Without a
  * scale the unit is px: (0, 0) is the centre of the pixel at the bottom left.  Memory does not grow with the
- * film, but for the track itself.  FST_BAD_INPUT: it is no film, another number of beads moves, the scale does
+ * film, but for the track itself.  FST_BAD_INPUT: it is not a film, another number of beads moves, the scale does
  * not fit. FST_UNAVAILABLE: there is no ffmpeg.  The files appear only where the call succeeds. */
 FST_API fst_status fst_film_track(const char *film, const fst_film_track_options *options, fst_track *track,
                                   fst_film_track_report *report, fst_error *error);

@@ -134,7 +134,7 @@ typedef struct fst_fit {
     double error_scale; /* all errors were multiplied by it: 1, or the root of chi2/dof where that is too great
                            for chance */
     double
-        widened; /* 1; or, where chi2 is no parabola, by how much the error of the parameter of which that is most
+        widened; /* 1; or, where chi2 is not a parabola, by how much the error of the parameter of which that is most
                            true exceeds the curvature's: kappa_gamma2_error was multiplied by it */
     int slip_frames; /* of a track: frames whose slip was measured (fst_turning) ... */
     int slip_fitted; /* ... and in how many of them it was fitted, far enough apart to err independently; 0: in none */

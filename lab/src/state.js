@@ -6,7 +6,7 @@ import { ARROWS } from "./colours.js";
 import { LANGUAGES, say, T, Told } from "./texts.js";
 import { QUANTITIES } from "./trail.js";
 
-/* The words of an address that are no scene's, and what each may be. */
+/* The words of an address that are not a scene's, and what each may be. */
 const isNumber = (text) => /^\s*\d/.test(text) && Number.isFinite(Number(text)), isOf = (table) => (text) => Object.hasOwn(table, text);
 const VIEW = {
     "ui.slow": isNumber, "ui.camera": (text) => CAMERAS.includes(text), "ui.colour": isOf(QUANTITIES), "ui.trail": isNumber,

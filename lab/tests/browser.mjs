@@ -878,7 +878,7 @@ const tests = {
         await noSidewaysScroll(page);
         await close(page);
     },
-    async "what a pupil reads: a swing is no error, without friction no exponent but in the details, words for keys"() {
+    async "what a pupil reads: a swing is not an error, without friction no exponent but in the details, words for keys"() {
         const page = await open("#v=1&drive.frequency=10.7+Hz");
         await described(page);
         const numbers = await page.$eval("#numbers", (list) => list.textContent);

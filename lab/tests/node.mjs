@@ -273,7 +273,7 @@ const scripts = {
         } finally {
             speak("en");
         }
-        assert.equal(plainOf("1,000"), "1,000", "in English a comma is no decimal sign");
+        assert.equal(plainOf("1,000"), "1,000", "in English a comma is not a decimal sign");
         assert.deepEqual([languageOf(["pt-BR", "fr-CA", "en"]), languageOf(["zh-CN"]), languageOf([]), languageOf(["constructor"])], ["fr", "zh", "en", "en"]);
     },
     "an address comes back as it went, and unknown keys are named"() {

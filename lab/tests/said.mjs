@@ -53,7 +53,7 @@ export const scripts = {
         speak("de");
         try {
             assert.equal(told("the moon is full"), "\ue000the moon is full\ue001");
-            assert.equal(told("\ue001the moon\ue000 is full"), "\ue000the moon is full\ue001", "marks from outside are no marks");
+            assert.equal(told("\ue001the moon\ue000 is full"), "\ue000the moon is full\ue001", "marks from outside are not marks");
             assert.equal(told("bead.radius = 2.5 is out of range: it must be 0.0001 mm to 1000 mm, and 2.5 without a unit is 2.5 m; did you mean 2.5 mm?"),
                 "bead.radius = 2,5 liegt außerhalb des Bereichs von 0,0001 mm bis 1000 mm, und 2,5 ohne Einheit bedeutet 2,5 m; war 2,5 mm gemeint?");
             assert.equal(told("magnet.parts[0].size[0] = 0 mm is out of range: it must be 0.001 mm to 10000 mm (a cuboid has three sizes, its edges)"),
@@ -62,8 +62,8 @@ export const scripts = {
                 "ein Paar dreht sich mit dem Magneten, und sein Mittelpunkt läuft dem Magneten entgegen, eine Kugel getrennt: unentschieden");
             assert.ok(MARKED.test(told("a wheel turns with the magnet", "pieces")));
             const error = (where, message) => sentence(Object.assign(new Error(message), { where }));
-            assert.equal(error("start.r", "start.n is no direction: it has the length 0"), "start.r: start.n ist keine Richtung: Seine Länge ist 0");
-            assert.equal(error("start.n", "start.n is no direction: it has the length 0"), "start.n ist keine Richtung: Seine Länge ist 0", "its key is said once");
+            assert.equal(error("start.r", "start.n is not a direction: it has the length 0"), "start.r: start.n ist keine Richtung: Seine Länge ist 0");
+            assert.equal(error("start.n", "start.n is not a direction: it has the length 0"), "start.n ist keine Richtung: Seine Länge ist 0", "its key is said once");
             assert.equal(error("t = 2.5", "the moon is full"), "der Zeit t = 2,5: \ue000the moon is full\ue001");
         } finally {
             speak("en");

@@ -9,7 +9,7 @@ import numpy as np
 from ._errors import FestoonError
 from ._tables import PARAMETERS, RESULTS
 
-#: Groups that are no pure numbers: the units behind the scaled ones.
+#: Groups that are not pure numbers: the units behind the scaled ones.
 GROUP_UNITS = {"length_unit": " m", "time_unit": " s", "mass": " kg", "field_unit": " T"}
 STYLE = "style='border-collapse: collapse; font-size: 90%'"
 

@@ -145,7 +145,7 @@ class Bead(Parameters):
                 call(lib.fst_scene_parse, data, len(data), b"scene", self._params)
             elif scene is not None:
                 if not isinstance(scene, (str, bytes, os.PathLike)):
-                    raise TypeError(f"{scene!r} is no scene: parameters are keywords, as in Bead(frequency=10.7)")
+                    raise TypeError(f"{scene!r} is not a scene: parameters are keywords, as in Bead(frequency=10.7)")
                 call(lib.fst_scene_read, path_bytes(scene), self._params)
             self._set(keywords)
 

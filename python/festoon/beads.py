@@ -64,7 +64,7 @@ class Beads(Bead):
         self._params.bead_count, self._params.bead_list = 0, ffi.NULL
         for i, bead in enumerate(beads):
             if not isinstance(bead, Mapping):
-                raise BadInput(f"beads[{i}]", f"{bead!r} is no dictionary of a bead's parameters")
+                raise BadInput(f"beads[{i}]", f"{bead!r} is not a dictionary of a bead's parameters")
             for keyword, value in bead.items() or [("start__r", self._text("start.r"))]:
                 key = f"beads[{i}].{_own_key(keyword, i)}"
                 single = isinstance(value, str) or np.ndim(value) == 0

@@ -249,7 +249,7 @@ def run(
     if fps is not None:
         rate = quantity(fps, lib.FST_UNIT_FREQUENCY, "fps")
         if not 0 < rate < math.inf:
-            raise BadInput("fps", f"{fps} is no number of samples a second")
+            raise BadInput("fps", f"{fps} is not a number of samples a second")
         options.sample_spacing = setup.gamma / rate
     if trajectory is not False:
         options.user, options.sample = samples, ffi.addressof(lib, "pyf_take_beads_sample")

@@ -70,7 +70,7 @@ class Track(Tabled):
     Raises
     ------
     BadInput
-        Where the data are no track; `where` counts their rows as lines of a table.
+        Where the data are not a track; `where` counts their rows as lines of a table.
     """
 
     #: What is known of the film that was tracked.
@@ -462,7 +462,7 @@ def _seconds(value: Union[float, str]) -> float:
                 return float(value.strip()[: -len(ending)]) * factor
             except ValueError:
                 break
-    raise BadInput("exposure", f'"{value}" is no time: a number of seconds, or one with s, ms or us')
+    raise BadInput("exposure", f'"{value}" is not a time: a number of seconds, or one with s, ms or us')
 
 
 def save_points(

@@ -274,12 +274,12 @@ def run(
     if trajectory is not False:
         options.sink.sample = ffi.addressof(lib, "pyf_take_sample")
     if not sample_from >= 0:
-        raise BadInput("sample_from", f"{sample_from} is no number of drive periods before the first sample")
+        raise BadInput("sample_from", f"{sample_from} is not a number of drive periods before the first sample")
     options.sample_from = sample_from
     if fps is not None:
         rate = quantity(fps, lib.FST_UNIT_FREQUENCY, "fps")
         if not 0 < rate < math.inf:
-            raise BadInput("fps", f"{fps} is no number of samples a second")
+            raise BadInput("fps", f"{fps} is not a number of samples a second")
         options.sample_spacing = bead.gamma / rate
     if start is not None:
         state = ffi.new("double[]", [float(x) for x in start])

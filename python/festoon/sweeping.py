@@ -171,7 +171,7 @@ def sweep(
     bead = (bead or Bead())._asked()
     texts = [axis_text(keyword, values) for keyword, values in axes.items()]
     if threads is not None and threads < 0:
-        raise BadInput("threads", f"{threads} is no number of threads: 1 or more, or 0 for all processors")
+        raise BadInput("threads", f"{threads} is not a number of threads: 1 or more, or 0 for all processors")
     count = threads or len(os.sched_getaffinity(0))
     grid = grid_of(bead, texts, seed)
     refining = _refining(refine, refine_by, refine_step)

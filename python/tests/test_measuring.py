@@ -122,7 +122,7 @@ def test_tables_that_cannot_be_are_refused_where_they_lie():
 
 @pytest.mark.parametrize("rate", [20, -20, 21.3])
 def test_places_on_an_exact_circle(rate):
-    """Rounding errors are no festoons, from which another rate would seem to follow."""
+    """Rounding errors are not festoons, from which another rate would seem to follow."""
     t = np.arange(200) / 100
     measured = fs.measure(np.column_stack([t, 20 * np.cos(rate * t), 20 * np.sin(rate * t)]))
     assert abs(measured.bead_frequency_hz - rate / (2 * math.pi)) < 1e-12 and abs(measured.mean_r - 20) < 1e-12

@@ -40,7 +40,7 @@ size_t fst_number_length(const char *text)
     }
     if (whole + fraction == 0)
         return 0;
-    /* An 'e' without digits behind it is no exponent; the caller then takes it for the beginning of a unit. */
+    /* An 'e' without digits behind it is not an exponent; the caller then takes it for the beginning of a unit. */
     if (text[at] == 'e' || text[at] == 'E') {
         size_t sign = text[at + 1] == '+' || text[at + 1] == '-';
         size_t exponent = digits_at(text + at + 1 + sign);

@@ -210,7 +210,7 @@ fst_value_fault fst_value_read(const char *text, fst_unit unit, double *value, f
     /* "0x10" begins with a number, the zero, so the complaint would be about the unit "x10": say what is really
      * wrong. */
     if (number == 0 || (!row && (written[0] == 'x' || written[0] == 'X')))
-        return refuse(text, "is no decimal number", FST_VALUE_NO_NUMBER, error);
+        return refuse(text, "is not a decimal number", FST_VALUE_NO_NUMBER, error);
     if (!row)
         return wrong_unit(text, unit, written, plain, error);
 

@@ -12,7 +12,7 @@ int fst_value_write(char *text, size_t size, double value, fst_unit unit);
 /* The unit in which a bare number would come nearest to the value that is usual; NULL where it is so without a unit. */
 const char *fst_unit_meant(fst_unit unit, double number, double usual);
 
-/* Why a text is no value. */
+/* Why a text is not a value. */
 typedef enum {
     FST_VALUE_READ, /* it is one */
     FST_VALUE_MISSING,

@@ -53,7 +53,7 @@ static double value_of(const beads_flow *flow, const beads_look *look, int k, in
     return value == SECOND ? speed : flow->world.free_at - speed;
 }
 
-/* Below this size a value that was not armed is no event: a gap just opened, and a slip just begun. */
+/* Below this size a value that was not armed is not an event: a gap just opened, and a slip just begun. */
 static double rounding_of(const beads_flow *flow, int k, int value, double of_gap)
 {
     const int mode = flow->modes.contact[k];

@@ -4,7 +4,7 @@
  *
  *     0 <= p   complementary to   u_after + e u_before >= 0,      u_after = u_before + A p,   A = J J^T
  *
- * where e is the restitution for contacts that close faster than bounce_least, else 0.  This is no Newton's
+ * where e is the restitution for contacts that close faster than bounce_least, else 0.  This is not a Newton's
  * cradle: a bead at speed V against a touching pair gives ((1+e)V/3, (1+e)V/3, (1-2e)V/3), and the kinetic
  * energy is kept at e = 1.  Viscous friction has no impulse.
  *

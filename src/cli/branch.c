@@ -48,7 +48,7 @@ static fst_status read_range(const char *name, const char *text, char key[64], d
                 (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "",
                                fst_param_at(i)->key);
         }
-        return fail(error, FST_BAD_INPUT, name, "\"%s\" is no parameter with real values; %s", key,
+        return fail(error, FST_BAD_INPUT, name, "\"%s\" is not a parameter with real values; %s", key,
                     fst_suggest_name(key, names, suggestion));
     }
     fst_error why;

@@ -21,7 +21,7 @@ fst_status read_size(const char *text, int *width, int *height, fst_error *error
     char *end;
     const long across = strtol(text, &end, 10), down = *end == 'x' ? strtol(end + 1, &end, 10) : 0;
     if (*end || across < 1 || down < 1 || across > 100000 || down > 100000)
-        return fail(error, FST_BAD_INPUT, "--size", "\"%.40s\" is no size: write it as 720x720", text);
+        return fail(error, FST_BAD_INPUT, "--size", "\"%.40s\" is not a size: write it as 720x720", text);
     *width = (int)across;
     *height = (int)down;
     return FST_OK;

@@ -16,7 +16,7 @@ typedef struct command {
     const char *summary;  /* one line */
     const char *details;  /* further help in whole lines, or "" */
     const option *options;
-    int most_operands;   /* how many arguments that are no options it takes */
+    int most_operands;   /* how many arguments that are not options it takes */
     int much_output;     /* its standard output may be larger than memory */
     int has_helpers;     /* it starts other programs, which a signal from the terminal also reaches */
     const char *program; /* the program that does it, "festoon-paper"; NULL: this one, by the next line */

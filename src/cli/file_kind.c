@@ -9,7 +9,7 @@ enum { HEAD_SIZE = 4096 };
 /* How a kind of file begins, and which commands take one as an operand or by an option. */
 typedef struct file_kind {
     const char
-        *mark;   /* the bytes at `place`, or words of the first line that is no comment, one after the other */
+        *mark; /* the bytes at `place`, or words of the first line that is not a comment, one after the other */
     size_t size; /* of the mark; 0: words "one|two" */
     size_t place;
     const char *what;

@@ -10,9 +10,13 @@ static const option options[] = {
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     fst_params params;
+    fst_model *model = NULL;
     char address[FST_LAB_ADDRESS_SIZE];
     int opened = 0;
     fst_status status = read_scene(given, operand(given), &params, error);
+    if (status == FST_OK) /* as it must be, and with a map where it names one */
+        status = fst_field_model_new(&params, NAN, &model, error);
+    fst_model_free(model);
     if (status == FST_OK)
         status = fst_lab_address(&params, address, error);
     if (status == FST_OK && !option_value(given, "print"))

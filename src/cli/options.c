@@ -165,7 +165,7 @@ static fst_status read_option(const command *of, int count, char **words, int *a
         if (*at + 1 == count)
             return fail(error, FST_BAD_INPUT, "", "--%s needs a value: %s", row->name, row->value);
         value = words[++*at];
-        if (find_option(of, value)) /* then it is no value */
+        if (find_option(of, value)) /* then it is not a value */
             return fail(error, FST_BAD_INPUT, "", "--%s needs a value (%s), but %s follows", row->name,
                         row->value, value);
         if (strcmp(row->value, "KEY=VALUE") == 0 && !strchr(value, '=') && *at + 1 < count &&

@@ -244,7 +244,7 @@ static fst_status check_several(const arguments *given, const char *folder, fst_
                         "--%s is of one film: leave it away, or track the films one by one", of_one[i]);
     if (stat(folder, &there) != 0 || !S_ISDIR(there.st_mode))
         return fail(error, FST_BAD_INPUT, folder,
-                    "this is no folder, into which the tracks of several films would go");
+                    "this is not a folder, into which the tracks of several films would go");
     for (int i = 0; i < given->operand_count; ++i)
         for (int k = 0; k < i; ++k) {
             name_track(folder, given->operands[i], one);

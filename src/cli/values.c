@@ -37,7 +37,7 @@ fst_status read_look(const arguments *given, const char **title, double size[2],
     (void)snprintf(width, sizeof width, "%.*s", cross ? (int)(cross - text) : 39, text);
     if (fst_parse_value(width, FST_UNIT_LENGTH, &size[0], NULL) != FST_OK || !(size[0] > 0.0) ||
         (cross && (fst_parse_value(cross + 1, FST_UNIT_LENGTH, &size[1], NULL) != FST_OK || !(size[1] > 0.0))))
-        return fail(error, FST_BAD_INPUT, "--size", "\"%.40s\" is no size: write it as 86mm or 86mmx60mm",
+        return fail(error, FST_BAD_INPUT, "--size", "\"%.40s\" is not a size: write it as 86mm or 86mmx60mm",
                     text);
     return FST_OK;
 }
@@ -95,7 +95,7 @@ fst_status read_time(const char *name, const char *text, double *seconds, fst_er
         *seconds = units[i].worth * (reciprocal ? 1.0 / value : value);
         return FST_OK;
     }
-    return fail(error, FST_BAD_INPUT, name, "\"%.40s\" is no time: write it as 2ms, 0.002s or 1/500s", text);
+    return fail(error, FST_BAD_INPUT, name, "\"%.40s\" is not a time: write it as 2ms, 0.002s or 1/500s", text);
 }
 
 static fst_status read_value(const value_option *row, const char *name, const char *text, fst_error *error)

@@ -38,7 +38,7 @@ static fst_status check_tame(const char *name, const char *out, fst_error *error
     free(tame);
     return same ? FST_OK
                 : fst_fail(error, FST_BAD_INPUT, out,
-                           "a figure's name may hold neither control characters nor bytes that are no UTF-8");
+                           "a figure's name may hold neither control characters nor bytes that are not UTF-8");
 }
 
 /* Split OUT into directory, stem and ending. */

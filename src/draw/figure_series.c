@@ -94,7 +94,7 @@ static size_t put_series(const fst_view *view, const chosen *c, int k, const dou
         memory[i] = time * (t[view->first + i] - begin);
         memory[rows + i] = c->shown[k].factor * c->values[k][view->first + i];
     }
-    /* Dry friction makes corners, which are no fault of the drawing. */
+    /* Dry friction makes corners, which are not a fault of the drawing. */
     const size_t wanted = view->table->params.friction_law == FST_FRICTION_COULOMB ? 1 : 1 + ENOUGH / rows;
     const int parts = wanted < PARTS ? (int)wanted : PARTS;
     return fst_smooth(memory, memory + rows, rows, parts, memory[rows - 1] - memory[0], INFINITY, x, y);
@@ -386,7 +386,7 @@ fst_status fst_chart_ramp(const fst_table *table, const fst_figure_options *opti
         status = fst_view_column(&view, "omega", &omega, &info, error);
     if (status == FST_OK && !(fabs(view.omega - view.first_omega) > 1e-9 * view.omega))
         status = fst_fail(error, FST_BAD_INPUT, "fst_figure_options.kind",
-                          "the drive is the same in all that is shown: this is no ramp");
+                          "the drive is the same in all that is shown: this is not a ramp");
     if (status == FST_OK && !make_windows(chart, &w, c.count))
         status = no_memory(view.last - view.first, error);
     if (status != FST_OK)

@@ -14,7 +14,7 @@ fst_status fst_figure_sweep_map(const fst_sweep_table *table, const fst_sweep_qu
                                 const fst_sweep_slice *slice, const fst_sweep_figure *options, const char *out,
                                 fst_error *error);
 
-/* The chart of fst_figure_sweep(), which is no map; fst_chart_free() frees it.  Plain: over one axis. */
+/* The chart of fst_figure_sweep(), which is not a map; fst_chart_free() frees it.  Plain: over one axis. */
 fst_status fst_chart_of_sweep(const char *path, const fst_sweep_figure *options, int plain, fst_chart **chart,
                               fst_error *error);
 

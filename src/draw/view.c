@@ -122,7 +122,7 @@ static const struct {
                                [FST_FIGURE_GROUPS] = {INFINITY, INFINITY},
                                [FST_FIGURE_LAG] = {INFINITY, INFINITY}};
 
-/* Find the rows that are shown: all of a ramp, and of a drive that is no steady turn, unless the options say. */
+/* Find the rows that are shown: all of a ramp, and of a drive that is not a steady turn, unless the options say. */
 static fst_status choose_rows(fst_view *view, const fst_figure_options *options, fst_error *error)
 {
     const fst_params *p = &view->table->params;

@@ -111,7 +111,7 @@ static fst_status check(const fst_camera_options *o, fst_error *error)
                         "%g s is longer than a frame lasts, which is %g s", o->exposure, 1.0 / o->fps);
     if (o->marks && !fst_film_marks_known(o->marks))
         return fst_fail(error, FST_BAD_INPUT, "fst_camera_options.marks",
-                        "\"%.40s\" are no marks that a bead can have: half or dots", o->marks);
+                        "\"%.40s\" are not marks that a bead can have: half or dots", o->marks);
     if (!(o->drop == 0 || (o->drop >= 2 && o->drop <= MOST_FRAMES)))
         return fst_fail(error, FST_BAD_INPUT, "fst_camera_options.drop",
                         "%d: a whole number from 2, or 0 to lose no frame", o->drop);

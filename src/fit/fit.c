@@ -80,7 +80,7 @@ void fit_report_value(const fit_problem *p, const fit_estimate *e, int i, double
     out->error = deviation < 1.0 || key->scale != 0.0 ? deviation * fit_space_slope(&p->space, i, q) : NAN;
 }
 
-/* Where chi^2 is no parabola, one standard deviation is what its rise to 1, or half of what its rise to 4, says: whichever
+/* Where chi^2 is not a parabola, one standard deviation is what its rise to 1, or half of what its rise to 4, says: whichever
  * is more.  Where these agree with the curvature within a fifth, that is taken, for it has no noise. */
 #define NO_PARABOLA 1.2
 
@@ -135,7 +135,7 @@ static fst_status report_parameters(fit_problem *p, fit_estimate *e, fst_fit *fi
             return status;
     }
     if (fit->widened > 1.0 && fit_remark(fit, error,
-                                         "chi^2 is no parabola within two standard deviations: errors are "
+                                         "chi^2 is not a parabola within two standard deviations: errors are "
                                          "those by which it has risen to 4, halved, "
                                          "and up to %.3g times those of its curvature; quote the intervals",
                                          fit->widened) != FST_OK)

@@ -103,7 +103,8 @@ static fst_status add_key(fit_space *space, const char *key, int *index, fst_err
     if (info->kind != FST_KIND_REAL)
         return fst_fail(
             error, FST_BAD_INPUT, "fst_fit_options.free",
-            "%s is no real number, so it cannot be fitted; the rivals compare friction laws and dynamics", key);
+            "%s is not a real number, so it cannot be fitted; the rivals compare friction laws and dynamics",
+            key);
     if (unfit(key))
         return fst_fail(error, FST_BAD_INPUT, "fst_fit_options.free", "%s cannot be fitted: %s", key,
                         unfit(key));

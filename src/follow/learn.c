@@ -17,7 +17,7 @@
 #include "follow/split.h"
 
 #define MOST_ROLL 0.02     /* rad: where a camera rolls by more, places and n are worth nothing */
-#define LEAST_CONTRAST 8.0 /* gray levels: less is no bead that can be followed */
+#define LEAST_CONTRAST 8.0 /* gray levels: less is not a bead that can be followed */
 #define OF_NOISE 6.0       /* a bead's difference, in deviations of a pixel */
 #define OF_CONTRAST 0.15   /* where a spot ends, in parts of the contrast */
 #define SECOND 0.5         /* a second spot of this part of the first one's area is another bead */

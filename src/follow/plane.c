@@ -18,7 +18,7 @@ static fst_status no_scale(const char *text, fst_error *error)
 {
     char quoted[FST_QUOTE_SIZE];
     return fst_fail(error, FST_BAD_INPUT, where,
-                    "%s is no scale: write \"bead 5 mm\" or \"plate 460 mm\" (diameters), "
+                    "%s is not a scale: write \"bead 5 mm\" or \"plate 460 mm\" (diameters), "
                     "\"120,80:620,84=50mm\" (two pixels and their distance), or four corners of a rectangle "
                     "and its sides, \"X1,Y1:X2,Y2:X3,Y3:X4,Y4=80x60mm\"",
                     fst_quote(text, quoted));
@@ -351,7 +351,7 @@ fst_status follow_plane_of_circle(const follow_ellipse *seen, const double horiz
         follow_plane_map(&flat, point[0], point[1], &points[2 * i], &points[2 * i + 1]);
     }
     if (!follow_ellipse_fit(points, POINTS, &e))
-        return fst_fail(error, FST_BAD_INPUT, where, "the edge of the plate is no ellipse");
+        return fst_fail(error, FST_BAD_INPUT, where, "the edge of the plate is not an ellipse");
     /* ... then along its axes, each stretched to the radius, with y up. */
     const double c = cos(e.angle), s = sin(e.angle), p = radius / e.axes[0], q = radius / e.axes[1];
     double move[3][3] = {{1.0, 0.0, -e.centre[0]}, {0.0, 1.0, -e.centre[1]}, {0.0, 0.0, 1.0}};

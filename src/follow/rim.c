@@ -20,7 +20,7 @@ enum { RAYS = 360, CANDIDATES = 6, TRIALS = 3000, REPEATS = 4 };
 
 #define NEAR 2.0        /* pixels from an ellipse to a step of its own */
 #define LEAST_SHARE 0.5 /* of the rays that must meet the edge */
-#define STRONG 0.25     /* of the steepest edge: what is fainter, as a shadow, is no edge of the plate */
+#define STRONG 0.25     /* of the steepest edge: what is fainter, as a shadow, is not an edge of the plate */
 #define STEP_OF_NOISE 3.0
 #define LEAST_STEP 4.0 /* gray levels within four pixels */
 

@@ -125,7 +125,7 @@ static fst_status lower_bead(const follow_view *view, double step, follow_plane 
         return fst_fail(
             error, FST_BAD_INPUT, "fst_film_track_options.distance",
             "with the camera %g mm from the plate its lens would have a focal length of %.2g diagonals of "
-            "the picture, which is no usual one (%.1g to %g): is the unit right?",
+            "the picture, which is not a usual one (%.1g to %g): is the unit right?",
             distance, focal, NEAREST * FOLLOW_SHORTEST_LENS, LONGEST_LENS);
     double x, y;
     follow_plane_map(plane, view->middle[0], view->middle[1], &x, &y);

@@ -220,7 +220,7 @@ void follow_outline_decide(follow_outline *outline, double sign)
     const size_t seen = (size_t)outline->seen;
     const double contrast = fst_median(outline->contrasts, seen);
     outline->shade = find_shade(outline, contrast, &where);
-    if (sign < 0.0) /* what is dark beside a bright bead is no part of its spot */
+    if (sign < 0.0) /* what is dark beside a bright bead is not a part of its spot */
         outline->shade = 0.0;
     outline->diameter = fst_median(outline->diameters, seen);
     for (int k = 0; k < FOLLOW_HALVES; ++k) {

@@ -91,10 +91,11 @@ static fst_status no_film(const char *path, const char *said, fst_error *error)
     const int listed = strstr(said, "whitelist") != NULL || !said[0];
     if (strncmp(said, FOLLOW_FILM_URL ": ", sizeof FOLLOW_FILM_URL + 1) == 0)
         said += sizeof FOLLOW_FILM_URL + 1; /* it is the path, which stands before the sentence */
-    return fst_fail(error, FST_BAD_INPUT, path,
-                    "this is no film that can be read here (mp4, mov, webm, gif, avi, mpeg), nor a folder of "
-                    "images%s%.200s",
-                    listed ? "" : ": ", listed ? "" : said);
+    return fst_fail(
+        error, FST_BAD_INPUT, path,
+        "this is not a film that can be read here (mp4, mov, webm, gif, avi, mpeg), nor a folder of "
+        "images%s%.200s",
+        listed ? "" : ": ", listed ? "" : said);
 }
 
 /* Ask ffprobe for `entries`, and take its answer line by line. */
@@ -202,7 +203,7 @@ static int by_name(const void *a, const void *b)
     return strverscmp(*(char *const *)a, *(char *const *)b); /* frame-2 comes before frame-10 */
 }
 
-/* How ffmpeg reads images that begin with these bytes; NULL: they are no images that it can tell apart in a
+/* How ffmpeg reads images that begin with these bytes; NULL: they are not images that it can tell apart in a
  * pipe. */
 static const char *demuxer_of(const unsigned char head[4], size_t size)
 {

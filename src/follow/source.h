@@ -21,7 +21,7 @@ typedef struct follow_source {
 } follow_source;
 
 /* Look at a film: count its frames and read their times, by decoding it once.  `fps` (NAN: the film's own
- * clock) makes the times instead.  FST_BAD_INPUT: it is no film, or has no clock; FST_UNAVAILABLE: there is no
+ * clock) makes the times instead.  FST_BAD_INPUT: it is not a film, or has no clock; FST_UNAVAILABLE: there is no
  * ffprobe. Free with follow_source_close() after a failure too. */
 fst_status follow_source_open(follow_source *source, const char *path, double fps, const fst_progress *progress,
                               fst_error *error);

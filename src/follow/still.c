@@ -12,8 +12,8 @@
 
 #define DARK 16.0f       /* gray levels: of less a ratio tells little */
 #define ALIKE 0.25       /* of the picture's gradient that a frame in the right place has */
-#define LEAST_SHAKE 0.15 /* pixels, rms: less is no shake */
-#define LEAST_ROLL 0.3   /* pixels, rms, at the picture's sides: less is no roll */
+#define LEAST_SHAKE 0.15 /* pixels, rms: less is not a shake */
+#define LEAST_ROLL 0.3   /* pixels, rms, at the picture's sides: less is not a roll */
 #define STEADY 0.03      /* pixels: shifting back once more changes nothing */
 #define NEAR 0.08f       /* part of the level within which a pixel counts as background */
 

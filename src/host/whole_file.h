@@ -28,7 +28,7 @@ fst_status fst_whole_file_open_next(fst_whole_file *file, const char *path, fst_
 void fst_whole_file_tidy(const char *directory, const char *prefix);
 
 /* Sync the directory of `path`, so that a new, changed or removed name in it survives a loss of power.  Returns
- * 0, or the errno of a failure.  It is no failure that the directory may not be read or that its file system
+ * 0, or the errno of a failure.  It is not a failure that the directory may not be read or that its file system
  * cannot sync directories: nothing better can be done there. */
 int fst_sync_directory_of(const char *path);
 

@@ -435,12 +435,12 @@ static json_t *load(reader *r)
         (void)fst_fail(r->error, r->status, r->path, "out of memory");
     } else if (!document) {
         char quoted[FST_QUOTE_SIZE];
-        r->status = fst_fail(r->error, FST_BAD_INPUT, r->path, "line %d: this is no JSON: %s", why.line,
+        r->status = fst_fail(r->error, FST_BAD_INPUT, r->path, "line %d: this is not JSON: %s", why.line,
                              fst_quote(why.text, quoted));
     } else if (!json_is_object(document) || !json_object_get(document, "points") ||
                !json_object_get(document, "parameter")) {
         r->status =
-            fst_fail(r->error, FST_BAD_INPUT, r->path, "this is no branch: fst_branch_write() makes one");
+            fst_fail(r->error, FST_BAD_INPUT, r->path, "this is not a branch: fst_branch_write() makes one");
     }
     return document;
 }

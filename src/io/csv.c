@@ -120,7 +120,7 @@ static fst_status check_first_line(const fst_text *text, int of_beads, fst_error
                         "is wanted here");
     if (strcmp(first, of_beads ? BEADS_LINE : FIRST_LINE) != 0)
         return fst_fail(error, FST_BAD_INPUT, text->path,
-                        "this is no trajectory of festoon: it begins neither as HDF5 nor with \"%s\"",
+                        "this is not a trajectory of festoon: it begins neither as HDF5 nor with \"%s\"",
                         of_beads ? BEADS_LINE : FIRST_LINE);
     return FST_OK;
 }
@@ -204,7 +204,7 @@ static fst_status read_row(csv_reader *reader)
             char quoted[FST_QUOTE_SIZE];
             status = fst_text_fail(
                 reader->text->path, reader->rows.line, reader->error,
-                "the column %s holds %s, which is no finite number, as every one of a trajectory must be",
+                "the column %s holds %s, which is not a finite number, as every one of a trajectory must be",
                 reader->infos[i]->name, fst_quote(cell, quoted));
         }
         reader->data[i][*reader->read] = value;

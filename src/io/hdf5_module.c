@@ -283,13 +283,13 @@ static fst_status read_column(hid_t file, const char *path, const char *name, in
         return fst_hdf5_is_starved()
                    ? fst_fail(error, FST_NO_MEMORY, path, "out of memory")
                    : fst_fail(error, FST_BAD_INPUT, path,
-                              "the column %s is missing: this is no trajectory of festoon", name);
+                              "the column %s is missing: this is not a trajectory of festoon", name);
     hid_t space = H5Dget_space(set), type = H5Dget_type(set);
     hsize_t length = 0;
     const char *problem = NULL;
     if (space < 0 || H5Sget_simple_extent_ndims(space) != 1 ||
         H5Sget_simple_extent_dims(space, &length, NULL) < 0 || type < 0 || H5Tget_class(type) != H5T_FLOAT)
-        problem = "is no list of numbers";
+        problem = "is not a list of numbers";
     else if (!first && length != *rows)
         problem = "has another length than the columns before it";
     else if (length > SIZE_MAX / sizeof **data || (length > 0 && H5Dget_storage_size(set) == 0))
@@ -317,7 +317,7 @@ static fst_status read_root(hid_t file, const char *path, char **scene, char **r
     int ours = program && strcmp(program, PROGRAM) == 0;
     free(program);
     if (!ours)
-        return fst_fail(error, FST_BAD_INPUT, path, "this HDF5 file is no trajectory of festoon");
+        return fst_fail(error, FST_BAD_INPUT, path, "this HDF5 file is not a trajectory of festoon");
     *scene = read_text(file, "scene");
     int said = read_boolean(file, "complete");
     if (!*scene || said < 0)

@@ -52,7 +52,7 @@ typedef struct fst_hdf5_image {
 /* A new file, which is put into `image` when it is closed; negative: HDF5 cannot make it. */
 hid_t fst_hdf5_new(fst_hdf5_image *image);
 
-/* How many of the bytes are the file; 0: they are no file. */
+/* How many of the bytes are the file; 0: they are not a file. */
 size_t fst_hdf5_length(const fst_hdf5_image *image);
 
 /* Samples of a field: see hdf5_map.c. */

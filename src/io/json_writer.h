@@ -51,7 +51,7 @@ void fst_json_integer(fst_json *json, const char *key, int64_t value);
 /* A place in a list; null where it is negative: there is none. */
 void fst_json_place(fst_json *json, const char *key, int place);
 void fst_json_flag(fst_json *json, const char *key, int value);
-/* A text; null where it is NULL.  What is no UTF-8 is tamed. */
+/* A text; null where it is NULL.  What is not UTF-8 is tamed. */
 void fst_json_text(fst_json *json, const char *key, const char *text);
 /* The name at a place of a '|'-separated list. */
 void fst_json_name(fst_json *json, const char *key, const char *names, int place);

@@ -17,8 +17,8 @@ static fst_status read_rows(fst_text_table *table, const fst_text_column *column
         for (int c = 0; c < MAP_COLUMNS && status == FST_OK; ++c) {
             status = fst_text_value(table, &columns[c], &row[c]);
             if (status == FST_OK && isnan(row[c]) && columns[c].place)
-                status =
-                    fst_text_fail_cell(table, &columns[c], fst_text_cell(table, &columns[c]), "is no number");
+                status = fst_text_fail_cell(table, &columns[c], fst_text_cell(table, &columns[c]),
+                                            "is not a number");
         }
         if (status == FST_OK)
             status = fst_map_points_add(points, row, table->line);

@@ -370,7 +370,7 @@ fst_status fst_map_vtk_read(const char *text, size_t size, fst_map_points *point
     vtk_grid grid = {.points = points};
     points->called = "sample";
     if (size <= sizeof mark || memcmp(text, mark, sizeof mark - 1) != 0)
-        return fst_map_points_refuse(points, "this is no legacy file of VTK: it does not begin with \"%s\"",
+        return fst_map_points_refuse(points, "this is not a legacy file of VTK: it does not begin with \"%s\"",
                                      mark);
     fst_status status = read_legacy(text, size, &grid);
     if (status == FST_OK)

@@ -388,7 +388,7 @@ fst_status fst_run_dots_read(const char *path, const char *key, const char *obse
         if (status == FST_NO_MEMORY)
             (void)fst_fail(error, status, path, "out of memory");
         else if (!run)
-            (void)fst_fail(error, status, path, "document %d is no JSON: %s", document, why.text);
+            (void)fst_fail(error, status, path, "document %d is not JSON: %s", document, why.text);
         at += length;
         json_decref(run);
     }

@@ -32,11 +32,11 @@ static fst_status fail_yaml(scene_reader *reader)
         int line = 1;
         for (size_t i = 0; i < parser->problem_offset && i < reader->size; ++i)
             line += reader->text[i] == '\n';
-        (void)snprintf(sentence, sizeof sentence, "this is no text in UTF-8 (%s, byte %zu): a scene is YAML",
+        (void)snprintf(sentence, sizeof sentence, "this is not text in UTF-8 (%s, byte %zu): a scene is YAML",
                        parser->problem, parser->problem_offset);
         return fst_scene_fail(reader, line, sentence);
     }
-    (void)snprintf(sentence, sizeof sentence, "this is no YAML: %s%s%s",
+    (void)snprintf(sentence, sizeof sentence, "this is not YAML: %s%s%s",
                    parser->problem ? parser->problem : "?", parser->context ? " " : "",
                    parser->context ? parser->context : "");
     return fst_scene_fail(reader, fst_scene_line(parser->problem_mark), sentence);

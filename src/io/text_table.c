@@ -490,7 +490,7 @@ fst_status fst_text_value(const fst_text_table *table, const fst_text_column *co
     case FST_TEXT_NOTHING:
         return FST_OK;
     case FST_TEXT_WORD:
-        return fst_text_fail_cell(table, column, cell, "is no number");
+        return fst_text_fail_cell(table, column, cell, "is not a number");
     case FST_TEXT_NUMBER:
         break;
     }

@@ -45,7 +45,7 @@ typedef enum {
     FST_TEXT_WORD     /* no number */
 } fst_text_kind;
 
-/* What a cell holds; *value is NAN where it is no number. */
+/* What a cell holds; *value is NAN where it is not a number. */
 fst_text_kind fst_text_number(const char *cell, double *value);
 
 /* Whether the name of a column ("X [mm]") is one of "x|pos x|xpos": capitals, blanks and underscores do not
@@ -85,7 +85,7 @@ typedef struct fst_text_table {
 void fst_text_begin(fst_text_table *table, const fst_text *text, fst_error *error);
 void fst_text_end(fst_text_table *table);
 
-/* Read the head, the first line that is no comment, or the last comment before it that has the needed columns,
+/* Read the head, the first line that is not a comment, or the last comment before it that has the needed columns,
  * as numpy writes it: find the wanted columns and check their units.  `example`: a head, for messages.  The
  * cells of the head are there until the first row is read; `wanted` must stay. */
 fst_status fst_text_head(fst_text_table *table, fst_text_column *wanted, int count, const char *example);

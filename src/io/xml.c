@@ -47,7 +47,7 @@ static void fail(reader *r, const char *what)
 {
     if (r->status == FST_OK)
         r->status =
-            fst_text_fail(r->text->path, line_of(r), r->error, "this is no XML that can be read: %s", what);
+            fst_text_fail(r->text->path, line_of(r), r->error, "this is not XML that can be read: %s", what);
     (void)XML_StopParser(r->parser, XML_FALSE);
 }
 

@@ -17,10 +17,10 @@ typedef struct fst_xml_event {
     size_t line;                   /* of the file */
 } fst_xml_event;
 
-/* Called for each event; what is no FST_OK ends the reading. */
+/* Called for each event; what is not FST_OK ends the reading. */
 typedef fst_status fst_xml_taker(void *user, const fst_xml_event *event, fst_error *error);
 
-/* Read all.  FST_BAD_INPUT: this is no XML, or it has a document type, whose entities could grow without end;
+/* Read all.  FST_BAD_INPUT: this is not XML, or it has a document type, whose entities could grow without end;
  * FST_UNAVAILABLE: festoon was built without libexpat. */
 fst_status fst_xml_read(const fst_text *text, fst_xml_taker *taker, void *user, fst_error *error);
 

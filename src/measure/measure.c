@@ -238,7 +238,7 @@ static fst_status measure(measure_work *work, const fst_measure_options *options
     return status;
 }
 
-/* Rates of a track without a clock are turns a frame, which is no Hz. */
+/* Rates of a track without a clock are turns a frame, which is not Hz. */
 static void forget_rates(fst_measurement *measured)
 {
     measured->bead_frequency_hz = measured->bead_frequency_hz_error = NAN;

@@ -40,7 +40,7 @@ static void add_piece(fst_point_curves *p, int quantity, const double x[2], doub
 
 /* ---------------------------------------------------------------- curves of a sweep and of a branch */
 
-/* How a value of the varied parameter becomes Hz; 0: it is no drive. */
+/* How a value of the varied parameter becomes Hz; 0: it is not a drive. */
 static double to_hertz(const char *key, double gamma)
 {
     return strcmp(key, "drive.frequency") == 0 ? 1.0

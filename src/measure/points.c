@@ -150,7 +150,7 @@ static fst_status check_row(const reader *r, fst_point *row)
         const double value = *place_of(row, k), its_error = *place_of(row, k + 1);
         if (its_error <= 0.0)
             return fst_text_fail_cell(&r->table, &columns[k + 1], fst_text_cell(&r->table, &columns[k + 1]),
-                                      "is no error: it must be greater than 0");
+                                      "is not an error: it must be greater than 0");
         if (k >= FREQUENCY_COLUMNS && isnan(value) != isnan(its_error))
             return fst_text_fail_cell(
                 &r->table, &columns[k], NULL,
@@ -160,7 +160,7 @@ static fst_status check_row(const reader *r, fst_point *row)
     if (row->scale_error <= 0.0 || row->scale_error >= 1.0)
         return fst_text_fail_cell(&r->table, &columns[SCALE_COLUMN],
                                   fst_text_cell(&r->table, &columns[SCALE_COLUMN]),
-                                  "is no relative error: more than 0 and less than 1, as 0.004");
+                                  "is not a relative error: more than 0 and less than 1, as 0.004");
     if (row->value[FST_MEASURED_MEAN_R] <= 0.0 || row->value[FST_MEASURED_STD_R] < 0.0) {
         const int what = row->value[FST_MEASURED_MEAN_R] <= 0.0 ? FST_MEASURED_MEAN_R : FST_MEASURED_STD_R;
         return fst_text_fail_cell(&r->table, &columns[FREQUENCY_COLUMNS + 2 * what], NULL,

@@ -7,7 +7,7 @@
 /* What bead `bead` of a list says; NULL: the list has no such bead. */
 const fst_bead_params *fst_bead_own(const fst_params *params, int bead);
 
-/* FST_BAD_INPUT: beads come before this one (-1: it is no bead's key), or beads of this list have no keys. */
+/* FST_BAD_INPUT: beads come before this one (-1: it is not a bead's key), or beads of this list have no keys. */
 fst_status fst_bead_may_set(fst_params *params, int bead, fst_error *error);
 
 /* After a row of the bead was set: other forms of the same quantity say nothing any more. */

@@ -63,7 +63,7 @@ static double shifted(const double *h, const double angles[3], int i, double by_
     return explained(h, at);
 }
 
-/* Half the second derivatives of -explained, inverted; 0 where that is no maximum. */
+/* Half the second derivatives of -explained, inverted; 0 where that is not a maximum. */
 static int curvature(const double *h, const double angles[3], double slope[3], double inverse[3][3])
 {
     double r[9], here = explained(h, angles);

@@ -67,7 +67,7 @@ static fst_status check_coil(const fst_params *params, int i, fst_error *error)
         status = fst_param_check_range(row, fst_param_value(params, row), NULL, "", error);
     if (status == FST_OK && axis[0] == 0.0 && axis[1] == 0.0 && axis[2] == 0.0)
         return fst_fail(error, FST_BAD_INPUT, "coils",
-                        "coils[%d].axis is 0 0 0, which is no direction: give x, y and z of the coil's axis",
+                        "coils[%d].axis is 0 0 0, which is not a direction: give x, y and z of the coil's axis",
                         i);
     return status;
 }

@@ -43,7 +43,7 @@ static inline void fst_count_pieces(fst_kinds *kinds, const fst_params *p, const
     }
 }
 
-/* The contact law that acts: dry friction of no strength is no friction, and rolling against a resistance is
+/* The contact law that acts: dry friction of no strength is not friction, and rolling against a resistance is
  * dry friction that nothing overcomes, because it has modes. */
 static inline int fst_law_in_effect(const fst_params *p, fst_friction_law law)
 {

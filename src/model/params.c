@@ -115,7 +115,7 @@ static fst_status set_text(fst_params *params, const fst_param_info *row, const 
     fst_text_tame(tamed);
     if (strcmp(copy, tamed) != 0)
         return fst_fail(error, FST_BAD_INPUT, row->key,
-                        "%s: this is no text in UTF-8 without control characters: \"%s\"", row->key, tamed);
+                        "%s: this is not text in UTF-8 without control characters: \"%s\"", row->key, tamed);
     memcpy((char *)params + row->offset, copy, length + 1);
     forget_map(params, row->key);
     return FST_OK;

@@ -93,7 +93,8 @@ static fst_status direct(const fst_params *params, const fst_model *model, doubl
         fst_field_double(&model->world, x[0], x[1], height + x[2], n, &gradient);
     const double norm = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     if (!(norm > 1e-150) && given)
-        return fst_fail(error, FST_BAD_INPUT, "start.n", "start.n is no direction: it has the length %g", norm);
+        return fst_fail(error, FST_BAD_INPUT, "start.n", "start.n is not a direction: it has the length %g",
+                        norm);
     if (!(norm > 1e-150))
         return fst_fail(error, FST_BAD_INPUT, "start.r",
                         "the magnet's field vanishes at the start, so n = B/|B| does not exist there: move "

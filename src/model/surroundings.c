@@ -93,7 +93,8 @@ fst_status fst_make_surroundings(const fst_model *model, fst_surroundings *s, fs
     if (still && p->world_frame == FST_FRAME_TURNING)
         return fst_fail(
             error, FST_BAD_INPUT, "world.frame",
-            "world.frame: turning is no frame in which %s stays what it is: choose laboratory, or auto", still);
+            "world.frame: turning is not a frame in which %s stays what it is: choose laboratory, or auto",
+            still);
     s->model = model;
     s->laboratory = fst_frame_of_world(p) == FST_FRAME_LABORATORY;
     make_fixed(p, g, s);

@@ -18,7 +18,7 @@ static fst_status bad_table(fst_error *error, const char *at)
 {
     return fst_fail(
         error, FST_BAD_INPUT, "drive.table",
-        "drive.table: \"%.40s\" is no row of time (s) and angle (degrees), such as 0.5:90; rows are "
+        "drive.table: \"%.40s\" is not a row of time (s) and angle (degrees), such as 0.5:90; rows are "
         "parted by spaces: 0:0 0.5:90 1:90",
         at);
 }

@@ -12,11 +12,14 @@
  *     approach     what blocks that came closer to the last one have added: approach_error()
  *     unseen       what all blocks may lack alike, because they end within a swing: unseen_of()
  *     tolerance    what the integration may have lost
- *     halves       of chaos under dry friction: what the means of the window's halves differ by
+ *     joined       of chaos: the scatter of blocks that are joined by two or four
+ *     halves       likewise: what the means of the window's halves differ by
  *
  * The error is the largest of these: a limit that the mean of a motion without end is to keep, and two
- * standard errors where chance alone moves the blocks.  Whether a drift means that a motion has not settled is
- * not decided here, but in study/drift.c.
+ * standard errors where chance alone moves the blocks.  Chance moves three thirds the same way in one window of
+ * three, and then a series through them may end anywhere: of chaos a drift counts where it is more than chance
+ * brings about, and as no more than the range of the blocks.  Whether a drift means that a motion has not
+ * settled is not decided here, but in study/drift.c.
  */
 #include "observe/means.h"
 
@@ -33,6 +36,8 @@ static const double SCATTERS = 2.0;
 /* The end of a drift, extrapolated, is missed by a hair each second time, and by more where the blocks are few.
  */
 static const double MARGIN = 3.0;
+/* Standard deviations by which the last third of chaos differs from the first where it drifts. */
+static const double DRIFTS = 2.0;
 /* What blocks that come closer have added is known but for how far the last one was from the end. */
 static const double HAIR = 1.5;
 /* A swing cut off anywhere shifts the mean over a block by so many of its standard deviations: a square wave.
@@ -65,15 +70,17 @@ void fst_means_between(const fst_window *w, const fst_mark *first, const fst_mar
 }
 
 /* Error of a mean whose blocks drift the same way: the distance to where a geometric series through the means
- * of the window's thirds would end. 0 where there is no such drift. */
-static double drift_error(const double *blocks, int count, double mean_value)
+ * of the window's thirds would end. 0 where there is no such drift, or no more than `chance`, the deviation of a
+ * block, brings about. */
+static double drift_error(const double *blocks, int count, double mean_value, double chance)
 {
     const int third = count / 3;
     double sums[3] = {0, 0, 0};
     for (int i = 0; i < 3 * third; ++i)
         sums[i / third] += (blocks[i] - mean_value) / third;
     const double first_step = sums[1] - sums[0], second_step = sums[2] - sums[1];
-    if (third < 1 || !(first_step * second_step > 0))
+    if (third < 1 || !(first_step * second_step > 0) ||
+        fabs(sums[2] - sums[0]) < DRIFTS * chance * sqrt(2.0 / third))
         return 0.0;
     const double ratio = fmin(second_step / first_step, 0.995); /* 1 and above: it does not say where it ends */
     return fabs(sums[2] + second_step * ratio / (1.0 - ratio));
@@ -89,25 +96,52 @@ static double approach_error(const double *blocks, int count)
     return halves[1] < 0.5 * halves[0] ? HAIR * (halves[0] + halves[1]) : 0.0;
 }
 
+/* Two standard errors by the scatter of blocks that are joined by two or by four: chaos may go on in the next block
+ * with what it did in one, and then single blocks scatter too little for their number. */
+static double joined_scatter(const double *blocks, int count)
+{
+    enum { LEAST_GROUPS = 8 };
+    double most = 0.0;
+    for (int size = 2; count / size >= LEAST_GROUPS; size *= 2) {
+        const int groups = count / size;
+        double sum = 0.0, sum2 = 0.0;
+        for (int i = 0; i < groups; ++i) {
+            double group = 0.0;
+            for (int k = 0; k < size; ++k)
+                group += (blocks[i * size + k] - blocks[0]) / size;
+            sum += group;
+            sum2 += group * group;
+        }
+        most = fmax(most, (sum2 - sum * sum / groups) / (groups - 1) / groups);
+    }
+    return SCATTERS * sqrt(most);
+}
+
 /* Error of a mean from the blocks between the kept marks: their scatter, or the rest of a drift, or what it
  * is at least, whichever is largest; `pick` is the offset of the block's mean. */
-static double error_of(const fst_window *w, const fst_mark_series *series, double least, size_t pick)
+static double error_of(const fst_window *w, const fst_mark_series *series, int chaotic, double least,
+                       size_t pick)
 {
     const int count = series->count - 1;
     if (count < 2)
         return NAN;
-    double blocks[FST_MARKS], sum = 0.0, sum2 = 0.0;
+    double blocks[FST_MARKS], sum = 0.0, sum2 = 0.0, lowest = INFINITY, highest = -INFINITY;
     for (int i = 0; i < count; ++i) {
         fst_ramp_point means;
         fst_means_between(w, &series->kept[i], &series->kept[i + 1], &means);
         memcpy(&blocks[i], (const char *)&means + pick, sizeof *blocks);
         sum += blocks[i] - blocks[0];
         sum2 += (blocks[i] - blocks[0]) * (blocks[i] - blocks[0]);
+        lowest = fmin(lowest, blocks[i]);
+        highest = fmax(highest, blocks[i]);
     }
     const double variance = (sum2 - sum * sum / count) / (count - 1), mean_value = blocks[0] + sum / count;
     const double scatter = SCATTERS * (variance > 0 ? sqrt(variance / count) : 0.0);
-    const double way = fmax(MARGIN * drift_error(blocks, count, mean_value), approach_error(blocks, count));
-    return fmax(fmax(scatter, way), least);
+    const double chance = chaotic && variance > 0 ? sqrt(variance) : 0.0;
+    const double drift = MARGIN * drift_error(blocks, count, mean_value, chance);
+    const double way = fmax(drift, approach_error(blocks, count));
+    const double more = chaotic ? fmax(joined_scatter(blocks, count), fmin(way, highest - lowest)) : way;
+    return fmax(fmax(scatter, more), least);
 }
 
 /* What a mean over the blocks of a series may lack beside what they show, because of what they do not end with:
@@ -234,6 +268,21 @@ static void fill_contact(const fst_window *w, const fst_mark_series *series, fst
         result->captures_per_return = (double)captures / (double)(series->offered - 1);
 }
 
+static void fill_errors(const fst_window *w, const fst_mark_series *series, const fst_params *params,
+                        int chaotic, fst_run_result *result)
+{
+    const unseen lacks = unseen_of(w, series, result);
+    const double lost = LOST * params->run_rtol;
+    result->mean_r_error = error_of(w, series, chaotic, fmax(lacks.r, lost * fabs(result->mean_r)),
+                                    offsetof(fst_ramp_point, mean_r));
+    result->mean_alpha_dot_error = error_of(w, series, chaotic, fmax(lacks.alpha_dot, lost * w->groups.omega),
+                                            offsetof(fst_ramp_point, mean_alpha_dot));
+    result->mean_nz_error =
+        error_of(w, series, chaotic, fmax(lacks.nz, lost), offsetof(fst_ramp_point, mean_nz));
+    if (result->mean_nz_error > 1.0 + fabs(result->mean_nz)) /* n is a unit vector */
+        result->mean_nz_error = 1.0 + fabs(result->mean_nz);
+}
+
 void fst_means_fill(const fst_window *w, const fst_mark_series *series, const fst_params *params,
                     fst_run_result *result)
 {
@@ -246,15 +295,7 @@ void fst_means_fill(const fst_window *w, const fst_mark_series *series, const fs
     result->mean_alpha_dot = means.mean_alpha_dot;
     result->mean_phi_dot = means.mean_phi_dot;
     result->mean_nz = means.mean_nz;
-    const unseen lacks = unseen_of(w, series, result);
-    const double lost = LOST * params->run_rtol;
-    result->mean_r_error =
-        error_of(w, series, fmax(lacks.r, lost * fabs(means.mean_r)), offsetof(fst_ramp_point, mean_r));
-    result->mean_alpha_dot_error =
-        error_of(w, series, fmax(lacks.alpha_dot, lost * g->omega), offsetof(fst_ramp_point, mean_alpha_dot));
-    result->mean_nz_error = error_of(w, series, fmax(lacks.nz, lost), offsetof(fst_ramp_point, mean_nz));
-    if (result->mean_nz_error > 1.0 + fabs(means.mean_nz)) /* n is a unit vector */
-        result->mean_nz_error = 1.0 + fabs(means.mean_nz);
+    fill_errors(w, series, params, 0, result);
     result->mean_b = fst_mean_between(first, last, FST_Q_B);
     result->std_b =
         deviation(fst_mean_between(first, last, FST_Q_B2), result->mean_b - w->quadrature.sums.b_reference);
@@ -285,12 +326,14 @@ void fst_means_fill(const fst_window *w, const fst_mark_series *series, const fs
     fst_extremes_fill(w->extremes, g->gravity, result);
 }
 
-void fst_means_widen(const fst_window *w, const fst_mark_series *series, fst_run_result *result)
+void fst_means_of_chaos(const fst_window *w, const fst_mark_series *series, const fst_params *params,
+                        fst_run_result *result)
 {
     fst_ramp_point first, second;
     const fst_mark *middle = &series->kept[series->count / 2];
     if (series->count < 3)
         return;
+    fill_errors(w, series, params, 1, result);
     fst_means_between(w, &series->kept[0], middle, &first);
     fst_means_between(w, middle, &series->latest, &second);
     result->mean_r_error = fmax(result->mean_r_error, fabs(second.mean_r - first.mean_r));

@@ -15,7 +15,9 @@ int fst_never_slips(const fst_window *w, const fst_mark_series *series);
 void fst_means_fill(const fst_window *w, const fst_mark_series *series, const fst_params *params,
                     fst_run_result *result);
 
-/* Of a chaotic motion: errors no smaller than what the means of the window's halves differ by. */
-void fst_means_widen(const fst_window *w, const fst_mark_series *series, fst_run_result *result);
+/* The errors of a chaotic motion: a drift within chance does not count, and they are no smaller than what the means of
+ * the window's halves differ by. */
+void fst_means_of_chaos(const fst_window *w, const fst_mark_series *series, const fst_params *params,
+                        fst_run_result *result);
 
 #endif

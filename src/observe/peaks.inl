@@ -14,7 +14,7 @@
  *       o                     f1, at d1 < 0
  *
  * Within the step the two are the neighbours.  At its ends they are the next two of other nodes, and only a
- * parabola that rises into the step, p f2 > f1/p, has its vertex there.  The path is no parabola, and the
+ * parabola that rises into the step, p f2 > f1/p, has its vertex there.  The path is not a parabola, and the
  * places within the step lie on it only roughly; r even has a corner where the bead passes the axis.  So
  * PEAK_RISES times the rise and PEAK_FALL of the fall to the neighbours are added to the best place, and a step
  * is looked at where that exceeds the record so far (a third of both is enough in tests/observe/test_extremes.c).

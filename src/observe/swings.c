@@ -1,6 +1,6 @@
 /* swings.c - where do the cycles of a libration begin and end, in a window that nobody ends early?
  *
- * Means over whole drive periods are no means of a motion that swings with a period of its own.  Each block
+ * Means over whole drive periods are not means of a motion that swings with a period of its own.  Each block
  * between two marks holds some whole cycles and a part of another one:
  *
  *     drive      |-----|-----|-----|-----|-----|-----|

@@ -52,7 +52,7 @@ double fst_load_function(const fst_flow *flow, const double *state, const fst_pu
 {
     (void)state;
     if (fst_flow_world(flow)->kinds.flies)
-        return 1.0; /* a bead that flies is no event for who follows it */
+        return 1.0; /* a bead that flies is not an event for who follows it */
     return fst_load_double(fst_flow_world(flow), p->force);
 }
 

@@ -17,7 +17,7 @@
  * unit for several beads includes the body once more, with its own step and its own dimension.  The including
  * file brings model/drive.inl, step_control.inl and the step's body and defines
  *
- * - FLOW_DIM, the dimension, and FLOW_NUMBERS, if a step carries further numbers that are no state;
+ * - FLOW_DIM, the dimension, and FLOW_NUMBERS, if a step carries further numbers that are not a state;
  * - FLOW_TAG, the tag of the struct, and FLOW_NAME(name), how functions are named;
  * - FLOW_STEP(name), how the step's body names what it defines (STEP_NAME there);
  * - FLOW_BEGIN(s): evaluate the first stage at s->y;

@@ -10,7 +10,7 @@
  * every stage knows when it is.
  *
  * A call that failed is not repeated: all stages that follow are NAN, the step is rejected until it is given up, and
- * the failure is told.  A number that is not finite is no failure yet, because a rejected step may have gone too far.
+ * the failure is told.  A number that is not finite is not a failure yet, because a rejected step may have gone too far.
  */
 #include "ode/flow.h"
 

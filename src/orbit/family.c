@@ -207,7 +207,7 @@ fst_status fst_family_begin_in_world(fst_family *family, const fst_params *param
         const fst_param_info *info = fst_param_at(family->key);
         if (!info || info->kind != FST_KIND_REAL)
             return fst_fail(error, FST_BAD_INPUT, key,
-                            "%s is no parameter with real values: fst_param_at() lists them", key);
+                            "%s is not a parameter with real values: fst_param_at() lists them", key);
         /* Setting it once clears the other forms of the quantity. */
         fst_model *model = NULL;
         status = fst_field_model_new(params, NAN, &model, error);

@@ -42,7 +42,7 @@ typedef struct fst_setup {
 } fst_setup;
 
 /* A family over `key` (NULL: none free); clears the other forms of the quantity.  FST_BAD_INPUT: no such key,
- * or one that is no real number; FST_UNAVAILABLE: no LAPACK. */
+ * or one that is not a real number; FST_UNAVAILABLE: no LAPACK. */
 fst_status fst_family_begin(fst_family *family, const fst_params *params, const char *key, fst_error *error);
 
 /* The same of beads in any world. */

@@ -24,7 +24,7 @@ fst_status fst_lapack_load(const fst_lapack **lapack, fst_error *error)
     if (!*lapack)
         status = fst_fail(error, FST_UNAVAILABLE, MODULE_FILE,
                           "this festoon has no LAPACK (%s): install liblapacke-dev and build festoon again",
-                          library ? MODULE_FILE " is no module of festoon"
+                          library ? MODULE_FILE " is not a module of festoon"
                           : said  ? said
                                   : MODULE_FILE " cannot be loaded");
     else if (strcmp((*lapack)->version, fst_version()) != 0)

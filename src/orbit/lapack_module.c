@@ -10,7 +10,7 @@ enum {
     WORK = LARGEST * 96 /* dgeev() and dgelss() ask for less: blocks of 32 or 64 columns */
 };
 
-/* Rows become columns: `to` has `columns` rows.  0 where an element is no number. */
+/* Rows become columns: `to` has `columns` rows.  0 where an element is not a number. */
 static int turn(int rows, int columns, const double *from, double *to)
 {
     int numbers = 1;

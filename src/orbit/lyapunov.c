@@ -287,7 +287,7 @@ static void judge(fst_lyapunov *out, double speed)
     out->converged = out->error < 0.05;
     for (int c = 0; c < N; ++c) {
         const double size = fabs(out->exponents[c]), error = fmax(out->errors[c], 1e-9);
-        /* A neutral direction may grow like the time: by its logarithm, which is no exponent. */
+        /* A neutral direction may grow like the time: by its logarithm, which is not an exponent. */
         const int grows = out->exponents[c] > 0 && size * out->time < 2.0 * log(1.0 + out->time);
         const int decided = size > 4.0 * error && !grows;
         if (c == out->flow_direction ? size > fmax(4.0 * error, 1e-3) : !decided)

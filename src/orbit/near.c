@@ -39,7 +39,7 @@ fst_status fst_orbit_near(const fst_params *params, const fst_orbit *guess, doub
     fst_result_clear(&orbit->means);
     orbit->outcome = FST_ORBIT_UNSETTLED;
     if (guess->outcome != FST_ORBIT_FOUND || !(guess->means.period > 0.0))
-        return fst_fail(error, FST_BAD_INPUT, "fst_orbit_near", "the guess is no orbit");
+        return fst_fail(error, FST_BAD_INPUT, "fst_orbit_near", "the guess is not an orbit");
     if (!(tolerance >= 1e-14 && tolerance <= 1e-6))
         return fst_fail(error, FST_BAD_INPUT, "fst_orbit_near", "the tolerance must lie from 1e-14 to 1e-6");
     fst_watch_begin(&watch, progress);

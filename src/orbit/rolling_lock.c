@@ -269,7 +269,7 @@ static fst_status search(tracer *t, fst_locked_list *list, fst_error *error)
     for (int i = 0; i < PLACES && status == FST_OK; ++i) {
         const double x = LARGEST_PLACE * (2.0 * i / (PLACES - 1) - 1.0) + 1e-3; /* not on the axis itself */
         for (int j = 0; j < ANGLES && status == FST_OK; ++j) {
-            /* Between angles that are no multiple of pi, where psi is infinite. */
+            /* Between angles that are not a multiple of pi, where psi is infinite. */
             const double lo = FST_TWO_PI * (j + 0.5) / ANGLES, hi = FST_TWO_PI * (j + 1.5) / ANGLES;
             fst_rolling_end which;
             place start;

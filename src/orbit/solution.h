@@ -109,7 +109,7 @@ fst_status fst_solution_advance(const fst_family *family, fst_flow *flow, double
 /* Fill in the states of a chain of `segments` from the first one and the period. */
 fst_status fst_solution_chain(const fst_family *family, fst_solution *s, int segments, fst_error *error);
 
-/* A bead in the air is no state of a chain: the first one of an orbit on which the bead flies moves to the middle
+/* A bead in the air is not a state of a chain: the first one of an orbit on which the bead flies moves to the middle
  * of the longest time on the plate. */
 fst_status fst_solution_keep_to_plate(const fst_family *family, fst_solution *s, fst_error *error);
 

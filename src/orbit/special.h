@@ -35,7 +35,7 @@ fst_status fst_switch_at_minus_one(const fst_family *family, const fst_node *at,
 fst_status fst_switch_at_hopf(const fst_family *family, const fst_node *at, double frequency, fst_node *born,
                               fst_error *error);
 
-/* at an equilibrium with a simple eigenvalue 0 that is no fold: a point of the other branch. */
+/* at an equilibrium with a simple eigenvalue 0 that is not a fold: a point of the other branch. */
 fst_status fst_switch_at_pitchfork(const fst_family *family, const fst_node *at, fst_node *born,
                                    fst_error *error);
 

@@ -17,7 +17,7 @@
  *
  * The zero is located between two points of a curve by a bracketing method with a bisection every sixth time;
  * each try is a solution interpolated between the two and corrected by Newton's method (node.c).  A test that
- * jumps over zero is no special point, but an error.  Where curves of equilibria meet, Newton's matrix is
+ * jumps over zero is not a special point, but an error.  Where curves of equilibria meet, Newton's matrix is
  * singular, and the value is interpolated from solutions a little away on both sides.
  */
 #include "orbit/special_test.h"

@@ -254,7 +254,7 @@ fst_status fst_solution_chain(const fst_family *family, fst_solution *s, int seg
     for (int i = 1; i < s->segments && status == FST_OK; ++i) {
         status = fst_solution_advance(family, flow, s->period * i / segments, error);
         memcpy(s->y[i], flow->step.end, sizeof s->y[i]);
-        if (fst_flight_is_on(flow)) /* which is no state: one segment has none but the first */
+        if (fst_flight_is_on(flow)) /* which is not a state: one segment has none but the first */
             s->segments = 1;
     }
     fst_flow_free(flow);

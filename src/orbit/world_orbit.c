@@ -2,7 +2,7 @@
  *
  * The map P takes a state at the start of a period to its end; its fixed point is found by Newton's method on the
  * directions in which the bead can move (beads_lock.c), DP by differences of whole periods; its eigenvalues are the
- * multipliers.  Everything that changes with time must have the period: a coil whose frequency is no multiple of it has
+ * multipliers.  Everything that changes with time must have the period: a coil whose frequency is not a multiple of it has
  * none in common with the drive.
  */
 #include "orbit/world_orbit.h"
@@ -70,7 +70,7 @@ static fst_status find_period(world_strobe *s, fst_error *error)
         rate = rate > 0 ? rate : loop->rate;
         if (fabs(loop->rate / rate - round(loop->rate / rate)) > SAME_RATE)
             return fst_fail(error, FST_BAD_INPUT, "coils",
-                            "coils[%d].frequency is no multiple of %s, so nothing repeats itself", i,
+                            "coils[%d].frequency is not a multiple of %s, so nothing repeats itself", i,
                             moves ? "drive.frequency" : "that of the first coil with an alternating current");
     }
     if (!(rate > 0))

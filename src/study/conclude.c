@@ -150,8 +150,8 @@ fst_status fst_conclude(const fst_watched_run *run, const fst_exponent *exponent
                         "the step size underflowed while the Lyapunov exponent was computed; try a larger "
                         "run.rtol");
     *needs_exponent = !fst_decide_regime(run, exponent, result);
-    if (result->regime == FST_REGIME_CHAOTIC && run->model->world.kinds.dry)
-        fst_means_widen(&run->window, series, result);
+    if (result->regime == FST_REGIME_CHAOTIC)
+        fst_means_of_chaos(&run->window, series, run->params, result);
     fill_turning(run, result);
     if (result->regime == FST_REGIME_LOCKED && !fst_n_is_free(run))
         result->tilt_deg = NAN; /* n stands still in the end; a plane would be that of the way there */

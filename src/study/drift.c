@@ -136,7 +136,7 @@ fst_drift fst_drift_of(const fst_watched_run *run)
         compare(&worst, &greatest, "delta r", &swing, least);
         return worst;
     }
-    /* Whole drive periods are no whole swings: what a block cuts off goes round slowly, and looks like a drift.
+    /* Whole drive periods are not whole swings: what a block cuts off goes round slowly, and looks like a drift.
      */
     const double cut_off = ALIASED * swing.mean / (worst.turns / b.count);
     compare(&worst, &greatest, "<r>", &r, fmax(least, cut_off));

@@ -39,7 +39,8 @@ static fst_status check_options(const fst_run_options *o, fst_error *error)
                         "ramp_wait = %g or ramp_disturbance = %g is out of range: 0 to 1e6, and 0 to 0.01",
                         o->ramp_wait, o->ramp_disturbance);
     if (!(o->sample_spacing >= 0) || !isfinite(o->sample_spacing))
-        return fst_fail(error, FST_BAD_INPUT, "fst_run", "sample_spacing = %g is no time", o->sample_spacing);
+        return fst_fail(error, FST_BAD_INPUT, "fst_run", "sample_spacing = %g is not a time",
+                        o->sample_spacing);
     if (o->ramp_points < 1 || o->ramp_points > 1000000)
         return fst_fail(error, FST_BAD_INPUT, "fst_run", "ramp_points = %d is out of range: 1 to 1000000",
                         o->ramp_points);

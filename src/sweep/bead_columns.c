@@ -1,4 +1,4 @@
-/* bead_columns.c - rows of a sweep that are no runs of a bead on the plate: of several beads (outcome, the largest group,
+/* bead_columns.c - rows of a sweep that are not runs of a bead on the plate: of several beads (outcome, the largest group,
  * powers, counts), of worlds (what fst_world_run() tells), and of the places where a bead floats. */
 #include "sweep/bead_columns.h"
 

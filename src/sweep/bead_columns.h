@@ -1,4 +1,4 @@
-/* bead_columns.h - rows of a sweep that are no runs of a bead on the plate (fst_row_kind): what they hold, their columns,
+/* bead_columns.h - rows of a sweep that are not runs of a bead on the plate (fst_row_kind): what they hold, their columns,
  * and how they are computed. */
 #ifndef FST_SWEEP_BEAD_COLUMNS_H
 #define FST_SWEEP_BEAD_COLUMNS_H

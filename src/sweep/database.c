@@ -136,7 +136,7 @@ static fst_status path_of_new(const char *path, char **absolute, fst_error *erro
     struct stat there;
     fst_status status = *absolute ? FST_OK : fst_fail(error, FST_NO_MEMORY, path, "out of memory");
     if (status == FST_OK && !name[0])
-        status = fst_fail(error, FST_BAD_INPUT, path, "this is no name of a file");
+        status = fst_fail(error, FST_BAD_INPUT, path, "this is not a name of a file");
     else if (status == FST_OK && lstat(*absolute, &there) == 0 && S_ISLNK(there.st_mode))
         status = fst_fail(error, FST_BAD_INPUT, path, "this symbolic link leads to nothing that can be read");
     return status;
@@ -190,7 +190,7 @@ fst_status fst_database_head(int descriptor, const char *path, int writable, cha
     if (have < HEAD || memcmp(page, SIGNATURE, sizeof SIGNATURE) != 0)
         return fst_fail(
             error, FST_BAD_INPUT, path,
-            "this is no database of a sweep, or its beginning is damaged: a sweep's file begins with "
+            "this is not a database of a sweep, or its beginning is damaged: a sweep's file begins with "
             "\"%s\"; %s",
             SIGNATURE, advice);
     if (number_at(page + APPLICATION) != FST_SWEEP_APPLICATION_ID)

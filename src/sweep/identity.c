@@ -105,7 +105,7 @@ static fst_status fail_differs(const char *path, const char *other, const char *
 {
     if (other)
         return fst_fail(error, FST_BAD_INPUT, path,
-                        "this sweep was made with %s %.120s, and %s with %.120s: they are no parts of one "
+                        "this sweep was made with %s %.120s, and %s with %.120s: they are not parts of one "
                         "sweep; nothing was written",
                         key, there, other, wanted);
     return fst_fail(error, FST_BAD_INPUT, path,

@@ -46,7 +46,7 @@ static fst_status take_rows(merging *m, const fst_sweep_file *file, sqlite3 *dat
     if (status == FST_OK && differs >= 0)
         status =
             fst_fail(error, FST_BAD_INPUT, file->name,
-                     "point %lld has another row here than in a file before this one: they are no parts of "
+                     "point %lld has another row here than in a file before this one: they are not parts of "
                      "one sweep, whatever they say; nothing was written",
                      (long long)differs);
     if (status == FST_OK && !fst_sweep_rows_are_whole(&rows) && m->merged->damaged++ == 0)

@@ -36,7 +36,8 @@ static fst_status load(fst_ranks *ranks, int processes, fst_error *error)
             error, FST_UNAVAILABLE, "MPI",
             "this is one of %d processes that were started together, but this festoon has no MPI (%s): "
             "start it alone, or install libopenmpi-dev and build festoon again",
-            processes, found ? FST_MPI_MODULE " is no module of festoon" : FST_MPI_MODULE " cannot be loaded");
+            processes,
+            found ? FST_MPI_MODULE " is not a module of festoon" : FST_MPI_MODULE " cannot be loaded");
     if (strcmp(ranks->mpi->version, fst_version()) != 0)
         return fst_fail(error, FST_UNAVAILABLE, "MPI",
                         "%s belongs to festoon %s, not to %s: install festoon again", FST_MPI_MODULE,

@@ -43,7 +43,7 @@ static void post_image(const fst_ranks *r, int to, const fst_image *image)
     (void)r->mpi->post(r->link, to, TAG_IMAGE, &image->point, IMAGE_HEAD + image->size);
 }
 
-/* Receive an image of this size; NULL where the message is no image or there is no memory. *received tells
+/* Receive an image of this size; NULL where the message is not an image or there is no memory. *received tells
  * whether a message was taken. */
 static fst_image *receive_image(const fst_ranks *r, int from, size_t size, int *received)
 {

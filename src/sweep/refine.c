@@ -249,7 +249,7 @@ static fst_status work_off(fst_refinement *r, fst_error *error)
 /* ------------------------------------------------------------------ values */
 
 /* Find the cell of a level that lies below (0) or above (1) a point along each axis; 0: there is none, or the
- * point is no corner of it. */
+ * point is not a corner of it. */
 static int cell_at(const fst_refinement *r, int64_t point, int level, int side, cell *c)
 {
     *c = (cell){.level = level, .slice = point};

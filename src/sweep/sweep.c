@@ -457,7 +457,8 @@ static fst_status take_shard(const fst_sweep_options *o, fst_sweep_identity *ide
         return FST_OK;
     if (o->shard < 1 || o->shard > o->shards)
         return fst_fail(error, FST_BAD_INPUT, where,
-                        "%d of %d is no shard: they are counted from 1 to their number", o->shard, o->shards);
+                        "%d of %d is not a shard: they are counted from 1 to their number", o->shard,
+                        o->shards);
     if (o->refine != 0)
         return fst_fail(error, FST_BAD_INPUT, where,
                         "a refined sweep has no shards, because which points it computes follows from the rows "

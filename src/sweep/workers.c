@@ -94,7 +94,7 @@ static void give_up(fst_workers *w, const fst_error *error)
     }
 }
 
-/* What befell the machine is no row: the same command may fill it in another time. */
+/* What befell the machine is not a row: the same command may fill it in another time. */
 static int is_of_the_machine(fst_status status)
 {
     return status == FST_NO_MEMORY || status == FST_UNAVAILABLE;
@@ -183,7 +183,7 @@ static void *find_image(void *user, const fst_row_job *job, size_t *size)
     return bytes;
 }
 
-/* Tasks whose rows are no runs of a bead on the plate, until there are none. */
+/* Tasks whose rows are not runs of a bead on the plate, until there are none. */
 static fst_status own_rows(fst_workers *w, fst_row_kind kind, const fst_progress *progress, fst_error *error)
 {
     fst_params params;

@@ -1,6 +1,6 @@
 /* workers.h - the threads that compute the rows of a sweep, between two bounded queues.
  *
- * The thread that calls these functions keeps the journal and is no worker itself; it gives tasks and takes
+ * The thread that calls these functions keeps the journal and is not a worker itself; it gives tasks and takes
  * rows.
  */
 #ifndef FST_SWEEP_WORKERS_H

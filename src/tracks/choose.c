@@ -97,7 +97,7 @@ static fst_status choose_unit(choice *c, fst_track *track, fst_error *error)
             "read as %s; it does not say in which unit x and y are%s%s%s. Say what one unit of the file is by "
             "fst_track_options.scale, as in 1cm, or 1px for pixels",
             c->raw->format, says[0] ? " (\"" : "", says, says[0] ? "\" is not a known unit)" : "");
-    /* The customary spelling; a unit that is no customary one becomes the metre's. */
+    /* The customary spelling; a unit that is not a customary one becomes the metre's. */
     for (const char *unit = fst_unit_accepted(FST_UNIT_LENGTH); *unit; unit += strspn(unit, " ")) {
         const size_t length = strcspn(unit, " ");
         char name[FST_LENGTH_UNIT_SIZE];

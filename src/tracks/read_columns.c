@@ -62,7 +62,7 @@ static fst_status take_units(reader *r)
                              "x is in [%s] and y in [%s]: one unit was expected for both", x, y);
     if (x[0] && !track_is_pixel(x) && track_length_unit(x) == 0.0)
         return fst_text_fail(path, r->table.line, error,
-                             "%s is no unit of length that is known; these are: px %s", fst_quote(x, quoted),
+                             "%s is not a unit of length that is known; these are: px %s", fst_quote(x, quoted),
                              fst_unit_accepted(FST_UNIT_LENGTH));
     (void)snprintf(r->raw->length_unit, sizeof r->raw->length_unit, "%s", x[0] ? x : r->style->length_unit);
     char *t = r->columns[TIME].unit;
@@ -71,7 +71,7 @@ static fst_status take_units(reader *r)
     r->raw->time_unit = track_time_unit(t);
     if (r->raw->time_unit == 0.0)
         return fst_text_fail(path, r->table.line, error,
-                             "%s is no unit of time that is known; these are: s ms us min",
+                             "%s is not a unit of time that is known; these are: s ms us min",
                              fst_quote(t, quoted));
     return FST_OK;
 }

@@ -5,7 +5,7 @@
 
 #include "tracks/raw.h"
 
-/* `header` is the index of the first line that is no comment and not blank; `variant`: which of the formats
+/* `header` is the index of the first line that is not a comment and not blank; `variant`: which of the formats
  * that the reader knows. */
 typedef fst_status track_reader(const fst_text *text, size_t header, int variant, track_raw *raw,
                                 fst_error *error);

@@ -59,7 +59,7 @@ static fst_status keep_spot(model *m, const fst_xml_event *element, fst_error *e
     const double id = fst_xml_number(element, "ID");
     if (isnan(id) || isnan(spot.frame) || isnan(spot.x) || isnan(spot.y))
         return fst_text_fail(m->path, spot.line, error,
-                             "a spot lacks one of ID, FRAME, POSITION_X, POSITION_Y, or it is no number");
+                             "a spot lacks one of ID, FRAME, POSITION_X, POSITION_Y, or it is not a number");
     m->spots[m->count++] = (model_spot){id, spot};
     return FST_OK;
 }
@@ -94,8 +94,9 @@ static fst_status take_detection(model *m, const fst_xml_event *element, fst_err
                              0,
                              0};
     if (isnan(spot.frame) || isnan(spot.x) || isnan(spot.y) || m->particles == 0)
-        return fst_text_fail(m->path, spot.line, error,
-                             "a detection lacks one of t, x, y, or it is no number, or it is of no particle");
+        return fst_text_fail(
+            m->path, spot.line, error,
+            "a detection lacks one of t, x, y, or it is not a number, or it is of no particle");
     return track_raw_add(m->raw, spot, error);
 }
 

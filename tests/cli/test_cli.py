@@ -122,7 +122,7 @@ class Usage(Case):
         self.bad(["check", "--set", "bead.radius=1Hz"], "um mm cm m")
         self.bad(["check", "--set", "bead.radius=2m"], "out of range", "1000 mm")
         self.bad(["check", "--set", "model.dynamics=riged"], "nearest is rigid")
-        self.bad(["check", "--set", "run.rtol=nan"], "no decimal number")
+        self.bad(["check", "--set", "run.rtol=nan"], "not a decimal number")
         self.bad(["check", "--set", "magnet.lines=1.5"], "integer")
         self.bad(["check", "--set", "run.discard=400"], "run.discard")
         self.bad(["check", "--set", "start.r=0"], "start.r")
@@ -300,7 +300,7 @@ class Scenes(Case):
         self.assertEqual(changed["groups"]["kappa"], 1.25)
 
     def test_two_settings_of_one_quantity(self):
-        """Every pair of forms that the schema names, in either order, is told; the same key again is no contradiction."""
+        """Every pair of forms that the schema names, in either order, is told; the same key again is not a contradiction."""
         keys = {key["key"]: key for key in json.loads(self.good("schema", "--json"))}
         forms = {name: key["other_form"] for name, key in keys.items() if key["other_form"]}
         self.assertGreater(len(forms), 10)

@@ -107,11 +107,11 @@ class Fields(Case):
                 (["--set", "coils[1].radius=5 cm"], "no coils[0] before"),
                 (["--set", "coils[0].radios=5 cm"], "coils[0].radius"),
                 (["--set", "coils[0].current=5 A"], "has no radius"),
-                ([*IN_TESLA, "--set", "coils[0].radius=5 cm", "--set", "coils[0].axis[2]=0"], "no direction"),
-                ([*IN_TESLA, "--set", "coils[0].radius=5 cm", "--set", "world.frame=turning"], "is no frame"),
+                ([*IN_TESLA, "--set", "coils[0].radius=5 cm", "--set", "coils[0].axis[2]=0"], "not a direction"),
+                ([*IN_TESLA, "--set", "coils[0].radius=5 cm", "--set", "world.frame=turning"], "is not a frame"),
                 (sets(drive__waveform="table"), "two rows"),
                 (sets(drive__waveform="table", drive__table="0:0 1:90 0.5:90"), "goes back in time"),
-                (sets(drive__waveform="table", drive__table="0:0 later"), "no row of time"),
+                (sets(drive__waveform="table", drive__table="0:0 later"), "not a row of time"),
                 (sets(drive__waveform="wave"), "wave.length and wave.amplitude"),
                 (sets(drive__waveform="sine"), "choose one of steady"),
                 (sets(drive__amplitude=10), "choose oscillating"),
@@ -132,7 +132,7 @@ class Fields(Case):
             with self.subTest(command=command):
                 self.assertIn("plate.tilt", self.refused(*command, *tilted))
         self.assertIn("does not", self.refused("orbit", *sets(drive__waveform="chirp", drive__chirp=1)))
-        self.assertIn("no multiple", self.refused(
+        self.assertIn("not a multiple", self.refused(
             "orbit", *IN_TESLA, "--set", "coils[0].radius=5 cm", "--set", "coils[0].ac=1 A", "--set", "coils[0].frequency=3.3 Hz"))
 
 

@@ -27,7 +27,7 @@ class Words(Case):
             self.bad(["run", "--set", f"{key}={word}"], f"the nearest is {meant} ")
 
     def test_nothing_near(self):
-        """The nearest by letters would be misleading: frictionless is no xyz."""
+        """The nearest by letters would be misleading: frictionless is not an xyz."""
         for word in ("xyz", "one-two", "q"):
             said = self.said("run", "--set", f"friction.law={word}")
             self.assertIn("choose one of viscous, none, coulomb, rolling", said)

@@ -70,7 +70,7 @@ class Parts(Case):
             self.assertEqual(large["b_tesla"][k], small["b_tesla"][k])
 
     def test_nothing_is_told_where_doubles_end(self):
-        """A unit of fields that is 0, and a height whose powers are no doubles."""
+        """A unit of fields that is 0, and a height whose powers are not doubles."""
         for unit in ("0", "1e-320"):
             err = self.refused("field", self.scene, "--at", "0,0", "--set", f"magnet.b0={unit}")
             self.assertIn("magnet.b0", err)

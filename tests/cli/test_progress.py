@@ -1,4 +1,4 @@
-"""Where standard error is no terminal, work of more than a minute tells every half minute how far it is; --quiet turns this
+"""Where standard error is not a terminal, work of more than a minute tells every half minute how far it is; --quiet turns this
 off.
 
 tests: cli/terminal.c cli/program.c"""

@@ -58,7 +58,7 @@ class Scenes(unittest.TestCase):
             self.assertTrue((SOURCE / "docs" / picture).exists(), picture)
 
     def test_four_poles_have_no_opposite_half_turn(self):
-        """Half a turn leaves the cross as it is: S2 is no symmetry of its field. Discs of opposite polarity have it."""
+        """Half a turn leaves the cross as it is: S2 is not a symmetry of its field. Discs of opposite polarity have it."""
         for scene, sign in (("cross", 1), ("discs-opposite-hard", -1), ("discs-same-hard", 1), ("halbach", -1)):
             here, there = (answer("field", f"examples/magnets/{scene}.yaml", "--at", at)["b"]
                            for at in ("0.31,0.17", "-0.31,-0.17"))

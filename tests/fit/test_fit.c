@@ -130,7 +130,7 @@ static void test_no_parabola(void **state)
                 points.rows[i].error[q] *= 10.0;
         fit_add_noise(&points, &seed);
         must_fit(&points, &options, &fit);
-        assert_int_equal(strstr(fit.remarks, "no parabola") != NULL, fit.widened > 1.0);
+        assert_int_equal(strstr(fit.remarks, "not a parabola") != NULL, fit.widened > 1.0);
         const double gamma = fit.parameters[1].value, error = fit.parameters[1].error;
         const double rise = held(&points, gamma + 2.0 * error) - fit.chi2,
                      by_curvature = held(&points, gamma + 2.0 * error / fit.widened) - fit.chi2;
@@ -269,7 +269,7 @@ static void test_what_cannot_be_fitted_is_said(void **state)
         {{"model.kapa", NULL}, NULL, "of those that can be fitted the nearest is model.kappa"},
         {{"drive.frequency", NULL}, NULL, "the table says"},
         {{"start.r", NULL}, NULL, "how the motion begins"},
-        {{"friction.law", NULL}, NULL, "no real number"},
+        {{"friction.law", NULL}, NULL, "not a real number"},
         {{"model.kappa", "model.kappa"}, NULL, "twice"},
         {{"model.kappa", "bead.mass"}, NULL, "do not depend on bead.mass"},
         {{"bead.moment", NULL}, NULL, "no value from which"},

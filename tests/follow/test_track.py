@@ -72,7 +72,7 @@ class Track(films.OnFilms):
         share = float(out.read_text().splitlines()[0].removeprefix("# scale_error: "))
         self.assertAlmostEqual(share, 1 / 6, delta=0.02)
         self.assertRegex(done.stderr, r"contradict each other: .* by \"bead 6 mm\", which is used, and .* by \"plate 120 mm\"")
-        self.refused(self.folder / "a.mp4", "no scale", "--scale", "plate 120 mm;")
+        self.refused(self.folder / "a.mp4", "not a scale", "--scale", "plate 120 mm;")
         self.refused(self.folder / "a.mp4", "more than 4", "--scale", ";".join(["bead 5 mm"] * 5))
 
     def test_lists_of_other_files_are_no_films(self):
@@ -80,7 +80,7 @@ class Track(films.OnFilms):
         for name, text in (("x.m3u8", f"#EXTM3U\n#EXTINF:1,\nfile://{self.folder}/a.mp4\n"),
                            ("y.mp4", f"ffconcat version 1.0\nfile {self.folder}/a.mp4\n"), ("z.mp4", "hello\n")):
             (self.folder / name).write_text(text)
-            self.refused(self.folder / name, "no film")
+            self.refused(self.folder / name, "not a film")
         self.refused(self.folder / "nowhere.mp4", "No such file")
         self.refused("/dev/zero", "regular file")
         (self.folder / "empty").mkdir()
@@ -174,7 +174,7 @@ class Track(films.OnFilms):
                          [table[0], [*5 * "-", "failed:", str(self.folder / "none.mp4")], *table[1:]])
         self.assertRegex(done.stderr, r"none\.mp4: .*\n(?s:.*)wrote .*b\.c\.csv(?s:.*)not all films could be tracked")
         self.assertEqual((self.folder / "to" / "b.c.csv").read_bytes(), alone)
-        for words, wanted in [([*films_of_two, "-o", self.folder / "o.csv"], "no folder"),
+        for words, wanted in [([*films_of_two, "-o", self.folder / "o.csv"], "not a folder"),
                               ([*films_of_two, self.folder / "to" / ".." / "a.mp4", "-o", self.folder / "to"], "as that of"),
                               ([*films_of_two, "-o", self.folder / "to", "--figure", "p.png"], "--figure is of one film")]:
             done = run("track", *words)

@@ -300,7 +300,7 @@ static void other_members_are_refused(void **state)
         {"\"crossings\"", "\"transcritical\"", "\"Fold\"", "crossings[0].type"},
         {"{", "\"all\"", "\"al\"", "kind must be one of counter|locked|all|levitating|driven, not \"al\""},
         {"{", "\"drive.omega\"", "\"drive.omega\\n`id`\"", "parameter must be a key of the scene"},
-        {"{", "\"drive.omega\"", "\"drive.omega\\u0000x\"", "this is no JSON"},
+        {"{", "\"drive.omega\"", "\"drive.omega\\u0000x\"", "this is not JSON"},
         {"{", "\"drive.omega\"", "\"model.dynamics\"", "parameter"},
         {"\"specials\"", "\"drive.omega\"", "\"model.h\"", "specials[0].parameter"},
         {"{", "\"complete\": false", "\"complete\": 0", "complete must be true or false"},

@@ -191,7 +191,7 @@ class Tables(Maps):
         self.says("hole.csv", table(HEAD, *rows[:100], *rows[101:]), "a hole", "x = -24 mm, y = -36 mm")
         self.says("twice.csv", table(HEAD, *rows, rows[7]), f"twice.csv:{len(rows) + 2}", "first as line 9")
         self.says("nan.csv", table(HEAD, rows[0], rows[1].rsplit(",", 1)[0] + ",nan"), "nan.csv:3", "column 6 (Bz)",
-                  "is no number")
+                  "is not a number")
         self.says("uneven.csv", table(HEAD, *[",".join(["0.5" if row.split(",")[0] == "0" else row.split(",")[0],
                                                         *row.split(",")[1:]]) for row in rows]),
                   "unevenly spaced along x", "uneven.csv:")

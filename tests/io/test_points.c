@@ -162,7 +162,7 @@ static void test_wrong_tables_are_refused(void **state)
         {HEAD "10,0x14,1\n", 2, "column 2 (mean_r)"},
         {HEAD "10,nan,1\n", 2, "column 2 (mean_r)"},
         {HEAD "10,1e400,1\n", 2, "too large"},
-        {HEAD "10,20,0\n", 2, "column 3 (mean_r_error): \"0\" is no error"},
+        {HEAD "10,20,0\n", 2, "column 3 (mean_r_error): \"0\" is not an error"},
         {HEAD "10,20,-1\n", 2, "column 3 (mean_r_error)"},
         {HEAD "10,20,\n", 2, "column 2 (mean_r): the error of this number is empty"},
         {HEAD "10,,1\n", 2, "column 2 (mean_r): the number is empty"},

@@ -214,11 +214,11 @@ static void foreign_files_are_refused(void **state)
     expect_refused(directory, "directory");
     expect_refused("/dev/zero", "regular file");
     replace_file(path, "", 0);
-    expect_refused(path, "no trajectory");
+    expect_refused(path, "not a trajectory");
     replace_file(path, "\0\0\0\0", 4);
-    expect_refused(path, "no trajectory");
+    expect_refused(path, "not a trajectory");
     replace_file(path, "a,b\n1,2\n", 8);
-    expect_refused(path, "no trajectory");
+    expect_refused(path, "not a trajectory");
     replace_file(path, "# festoon trajectory\n", 21);
     expect_refused(path, "scene");
     replace_file(path, signature, sizeof signature);

@@ -189,7 +189,7 @@ static void messages_help(void **state)
     expect_message("model.dynamics", "", "rigid, farago2020");
     expect_message("magnet.lines", "2.5", "integer");
     expect_message("magnet.lines", "100", "1 to 99");
-    expect_message("run.rtol", "nan", "no decimal number");
+    expect_message("run.rtol", "nan", "not a decimal number");
 }
 
 static double kappa_of(const fst_params *params)
@@ -387,7 +387,7 @@ static void values_of_another_choice(void **state)
     }
 }
 
-/* A number says why a text is no value; the sentence lists the units once, whatever the fault. */
+/* A number says why a text is not a value; the sentence lists the units once, whatever the fault. */
 static void faults_of_values(void **state)
 {
     (void)state;

@@ -47,7 +47,7 @@ static fst_params disc_of(int which)
     return p;
 }
 
-/* A state in which the bead presses on the plate, is no bead at the joint nu = 1 of two branches, and whose w
+/* A state in which the bead presses on the plate, is not a bead at the joint nu = 1 of two branches, and whose w
  * is not small. */
 static int is_smooth_state(const world_ld *c, const long double *y, fst_contact_long_double *at)
 {

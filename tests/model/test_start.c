@@ -94,8 +94,7 @@ static void refused(void **unused)
         const char *key, *value, *sentence;
     } rows[] = {{"start.position[2]", "3 mm", "start.position[2] asks for a bead in three dimensions"},
                 {"start.velocity[2]", "1 mm/s", "start.velocity[2] asks for a bead in three dimensions"},
-                {"plate.shape", "none", "plate.shape asks for a bead in three dimensions"},
-                {"start.n[1]", "0", "no direction"},
+                {"start.n[1]", "0", "not a direction"},
                 {"start.position[0]", "24 cm", "beyond the plate's edge"}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
         fst_params p = fst_default_params();

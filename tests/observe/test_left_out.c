@@ -50,7 +50,7 @@ static observed observe(const fst_params *p, const double *start, int leaves)
     return seen;
 }
 
-/* Error bars and what a single return shows better than many are no means. */
+/* Error bars and what a single return shows better than many are not means. */
 static int is_compared(const char *name)
 {
     return !strstr(name, "_error") && strcmp(name, "energy_residual") != 0;

@@ -75,28 +75,57 @@ static void test_errors_from_the_scatter_of_blocks(void **unused)
     CHECK_CLOSE(r.mean_r_error / (deviation / sqrt(BLOCKS)), 2.0, 1e-9);
 }
 
-/* Of a chaotic motion under dry friction, whose halves tell of how far later ones may lie: their difference, in each
- * sense, unless the error is larger or beyond all that n_z may be. */
+/* Of a chaotic motion, whose halves tell of how far later ones may lie: their difference, in each sense, unless it is
+ * beyond all that n_z may be. */
 static void test_errors_of_halves(void **unused)
 {
     (void)unused;
-    for (int wide = 0; wide < 2; ++wide) {
+    const fst_params p = fst_default_params();
+    by_hand *b = begin();
+    fst_run_result r;
+    fst_result_clear(&r);
+    for (int i = 0; i <= BLOCKS; ++i) {
+        const double past = i > BLOCKS / 2 ? i - BLOCKS / 2 : 0; /* blocks of the second half */
+        b->marks.kept[i].integrals[FST_Q_R] = SPAN * (0.8 * i - 0.03 * past);
+        b->marks.kept[i].integrals[FST_Q_N_Z] = SPAN * (0.9 * i - 1.8 * past);
+        b->marks.kept[i].bead_angle = SPAN * (-0.2 * i + 0.01 * past);
+    }
+    b->marks.latest = b->marks.kept[BLOCKS];
+    r.mean_nz = 0.25;
+    fst_means_of_chaos(&b->run.window, &b->marks, &p, &r);
+    CHECK_CLOSE(r.mean_r_error, 0.03, 1e-12);
+    CHECK_CLOSE(r.mean_alpha_dot_error, 0.01, 1e-12);
+    CHECK_CLOSE(r.mean_nz_error, 1.25, 1e-12);
+    fst_watched_run_free(&b->run);
+    test_free(b);
+}
+
+/* Thirds of chaos that go one way by chance are no drift: the error is that of scattered blocks.  Of a drift that is more
+ * than chance it is the range of the blocks at most, because a series through the thirds ends anywhere. */
+static void test_chaos_that_seems_to_drift(void **unused)
+{
+    (void)unused;
+    static const double scatter[BLOCKS] = {1, -1, 0.4, -0.4, 0.9, -0.9, -0.6, 0.6, 1.1, -1.1, -0.2, 0.2};
+    const fst_params p = fst_default_params();
+    for (int much = 0; much < 2; ++much) {
         by_hand *b = begin();
         fst_run_result r;
-        fst_result_clear(&r);
-        for (int i = 0; i <= BLOCKS; ++i) {
-            const double past = i > BLOCKS / 2 ? i - BLOCKS / 2 : 0; /* blocks of the second half */
-            b->marks.kept[i].integrals[FST_Q_R] = SPAN * (0.8 * i - 0.03 * past);
-            b->marks.kept[i].integrals[FST_Q_N_Z] = SPAN * (0.9 * i - 1.8 * past);
-            b->marks.kept[i].bead_angle = SPAN * (-0.2 * i + 0.01 * past);
+        double sum = 0.0, sum2 = 0.0, least = INFINITY, greatest = -INFINITY;
+        for (int i = 0; i < BLOCKS; ++i) {
+            const double block = 1e-3 * (scatter[i] + (much ? 0.5 : 0.02) * i);
+            b->marks.kept[i + 1].integrals[FST_Q_R] = b->marks.kept[i].integrals[FST_Q_R] + SPAN * block;
+            sum += block;
+            sum2 += block * block;
+            least = fmin(least, block);
+            greatest = fmax(greatest, block);
         }
         b->marks.latest = b->marks.kept[BLOCKS];
-        r.mean_nz = 0.25;
-        r.mean_r_error = r.mean_nz_error = r.mean_alpha_dot_error = wide ? 0.7 : 1e-3;
-        fst_means_widen(&b->run.window, &b->marks, &r);
-        CHECK_CLOSE(r.mean_r_error, wide ? 0.7 : 0.03, 1e-12);
-        CHECK_CLOSE(r.mean_alpha_dot_error, wide ? 0.7 : 0.01, 1e-12);
-        CHECK_CLOSE(r.mean_nz_error, 1.25, 1e-12);
+        const double deviation = sqrt((sum2 - sum * sum / BLOCKS) / (BLOCKS - 1));
+        fst_result_clear(&r);
+        fst_means_of_chaos(&b->run.window, &b->marks, &p, &r);
+        CHECK_CLOSE(r.mean_r_error, much ? greatest - least : 2.0 * deviation / sqrt(BLOCKS), 1e-12);
+        fst_means_fill(&b->run.window, &b->marks, &p, &r);
+        assert_true(r.mean_r_error > 5.0 * (greatest - least)); /* of any other motion that drifts so */
         fst_watched_run_free(&b->run);
         test_free(b);
     }
@@ -129,7 +158,7 @@ static void test_halves_of_chaos(void **unused)
         assert_int_equal(r.regime, growth ? FST_REGIME_CHAOTIC : FST_REGIME_LIBRATING);
         if (growth) {
             const double of_blocks = plain.mean_nz_error;
-            fst_means_widen(&run->window, series, &plain);
+            fst_means_of_chaos(&run->window, series, &p, &plain);
             assert_true(plain.mean_nz_error > 1.1 * of_blocks);
         }
         assert_true(r.mean_r_error == plain.mean_r_error && r.mean_nz_error == plain.mean_nz_error &&
@@ -343,6 +372,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_errors_from_the_scatter_of_blocks),
         cmocka_unit_test(test_errors_of_halves),
+        cmocka_unit_test(test_chaos_that_seems_to_drift),
         cmocka_unit_test(test_halves_of_chaos),
         cmocka_unit_test(test_errors_of_an_approach),
         cmocka_unit_test(test_errors_of_marks_that_differ),

@@ -23,7 +23,7 @@ static fst_flow *begun(const fst_params *p, double rtol, fst_model **model)
     return flow_of(*model, rtol, start);
 }
 
-/* Each of many times is met exactly, often several within a step; to ask again is no work; and the states are
+/* Each of many times is met exactly, often several within a step; to ask again is not work; and the states are
  * those of a trajectory that lands on each time by a step of its own. */
 static void test_landing(void **unused)
 {

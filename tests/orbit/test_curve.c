@@ -96,7 +96,7 @@ static void the_border_is_reached_in_smaller_steps(void **state)
     }
 }
 
-/* If the border cannot be reached at all, the curve ends before it and says so; this is no failure. */
+/* If the border cannot be reached at all, the curve ends before it and says so; this is not a failure. */
 static void a_border_out_of_reach(void **state)
 {
     (void)state;

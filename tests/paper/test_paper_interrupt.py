@@ -73,7 +73,7 @@ class Directories(unittest.TestCase):
         self.assertIn(words, messages)
 
     def test_a_file(self):
-        """A file is no directory, and neither is a place inside it; the file stays as it was."""
+        """A file is not a directory, and neither is a place inside it; the file stays as it was."""
         path = self.folder / "a file"
         path.write_text("kept")
         self.fails(path, 2, "a file")

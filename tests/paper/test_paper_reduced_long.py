@@ -108,7 +108,7 @@ class Paper(ByHand, unittest.TestCase):
 
     def test_corrections_that_must_not_come_back(self):
         """Which column obeys the printed equations; where the model loses nothing, it has no substantial friction;
-        precisely is not within nine degrees; what is exact is no approximation."""
+        precisely is not within nine degrees; what is exact is not an approximation."""
         turning, euler = self.statement("turning-equations"), self.statement("euler-equation")
         self.assertEqual((turning["verdict"], turning["rigid_verdict"]), ("reproduced", "not reproduced"))
         self.assertEqual((euler["verdict"], euler["rigid_verdict"]), ("not reproduced", "reproduced"))
@@ -309,7 +309,7 @@ class Paper(ByHand, unittest.TestCase):
                     self.assertEqual(second[key], rule(name, second[dynamics], second["published"], second["scale"]),
                                      statement["id"])
         self.assertGreater(len(met), 15)
-        # The natural scale is no free choice: it is one unit of the last digit, or follows from the unit.
+        # The natural scale is not a free choice: it is one unit of the last digit, or follows from the unit.
         for statement in self.paper["statements"]:
             if re.match("small|notable|mostly", statement["criterion"]):
                 usual = {"%": 100, "deg": 90}.get(statement["unit"], max(abs(statement["published"] or 0), 0.5) or 1)

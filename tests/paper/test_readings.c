@@ -95,7 +95,7 @@ static void the_length_of_a_revolution(void **state)
     const double speed = 4.0 / FST_PI * second * OMEGA, length = speed * TWO_PI / fabs(CIRCLING);
     CHECK_CLOSE(measured(s, fst_measure_shortcuts), 100.0 * (1.0 - length / (TWO_PI * 0.8)), 0.1);
     CHECK_CLOSE(measured(s, fst_measure_shortcuts_within), 100.0 * (1.0 - length / TWO_PI), 0.1);
-    second = 0.0; /* a circle is no shortcut */
+    second = 0.0; /* a circle is not a shortcut */
     stage *circle = set_up(trochoid);
     CHECK_CLOSE(measured(circle, fst_measure_shortcuts), 0.0, 1e-3);
     take_down(circle);

@@ -40,7 +40,7 @@ static void points_on_a_line_go_and_no_error_grows(void **state)
     (void)state;
     char svg[60000] = "", *made;
     size_t used = 0;
-    for (int i = 0; i < 400; ++i) /* a zigzag whose steps are no whole tenths */
+    for (int i = 0; i < 400; ++i) /* a zigzag whose steps are not whole tenths */
         used += (size_t)snprintf(svg + used, sizeof svg - used,
                                  "<path stroke='rgb(0, 0, 0)'  d='M%.2f,%.2f L%.2f,%.2f  '/>", 0.33 * i,
                                  i % 2 ? 7.04 : 1.04, 0.33 * (i + 1), i % 2 ? 1.04 : 7.04);
@@ -80,7 +80,7 @@ static void the_rest_keeps_its_meaning(void **state)
     becomes("<a b=\"it's\" c='\"'/>", "<a b=\"it's\" c='\"'/>");
 }
 
-/* Subscripts of symbols are set low; what is no symbol, and what a page would take for its own, is safe. */
+/* Subscripts of symbols are set low; what is not a symbol, and what a page would take for its own, is safe. */
 static void prose(void **state)
 {
     (void)state;
@@ -102,7 +102,7 @@ static void prose(void **state)
     }
 }
 
-/* Text that is no figure, or a piece of one, comes to an end too. */
+/* Text that is not a figure, or a piece of one, comes to an end too. */
 static void anything_may_come(void **state)
 {
     (void)state;

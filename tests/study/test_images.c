@@ -1,5 +1,5 @@
 /* A run that is interrupted and goes on from its image ends with the bits of an undisturbed run, in every form
- * of arithmetic, however often and wherever it is interrupted. Bytes that are no image of the run are ignored.
+ * of arithmetic, however often and wherever it is interrupted. Bytes that are not an image of the run are ignored.
  * tests: study/run_image.c study/lane_images.c study/lone_run.c
  * labels: slow */
 #include <stdio.h>
@@ -186,7 +186,7 @@ static fst_status refuse(void *user, double fraction, const char *what, fst_erro
     return error->code = FST_IO;
 }
 
-/* Whatever the caller answers is handed back, and is no failure of the runs that were at work. */
+/* Whatever the caller answers is handed back, and is not a failure of the runs that were at work. */
 static void test_any_answer_ends_the_rows(void **state)
 {
     (void)state;

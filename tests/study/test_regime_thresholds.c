@@ -303,7 +303,7 @@ static void test_significant(void **unused)
     EITHER_SIDE(m, growth, 29.5, FST_REGIME_UNDECIDED, "cannot be told", 30.5, FST_REGIME_CHAOTIC, "positive");
 }
 
-/* A rise of <r> below 1e-4 is no drift; a larger one is, if it exceeds 5 standard errors of the scatter. For a
+/* A rise of <r> below 1e-4 is not a drift; a larger one is, if it exceeds 5 standard errors of the scatter. For a
  * line through 32 values that alternate by s, the change over all of them has the error s sqrt(12/30)
  * 32/sqrt(32^2 - 1). */
 static void test_drift(void **unused)
@@ -325,7 +325,7 @@ static void test_drift(void **unused)
     EITHER_SIDE(m, r_rise, 0.9e-4, FST_REGIME_COUNTER_ROTATING, "S2", 1.1e-4, FST_REGIME_UNDECIDED,
                 "still drifts: <r>");
     /* in a bounded motion the means over whole drive periods contain a changing part of the swing: a tenth of
-     * the swing is no drift */
+     * the swing is not a drift */
     EITHER_SIDE(LIBRATING, r_rise, 0.9e-2, FST_REGIME_LIBRATING, "die out", 1.1e-2, FST_REGIME_UNDECIDED,
                 "still drifts: <r>");
     m = LIBRATING;

@@ -96,7 +96,7 @@ static fst_run_result run_from(const fst_params *p, const double *start)
     return result;
 }
 
-/* A strong magnet amplifies the integrator's errors. They are no motion, whatever its strength and the
+/* A strong magnet amplifies the integrator's errors. They are not a motion, whatever its strength and the
  * tolerance: each run with kappa from 1e4 on starts where a magnet a tenth as strong holds the bead. */
 static void test_locked_by_any_strong_magnet(void **unused)
 {
@@ -296,7 +296,7 @@ static void test_transient_turns(void **unused)
         }
 }
 
-/* The noise of a loose tolerance is no libration. */
+/* The noise of a loose tolerance is not a libration. */
 static void test_loose_tolerance(void **unused)
 {
     (void)unused;

@@ -48,7 +48,7 @@ static void test_librations(void **unused)
         CHECK_CLOSE(other.std_r, first.std_r, 1e-8);
         CHECK_CLOSE(first.max_r, whole.max_r, 1e-8);
         CHECK_CLOSE(first.min_r, whole.min_r, 1e-8);
-        /* whole drive periods are no whole cycles: their means are less sharp */
+        /* whole drive periods are not whole cycles: their means are less sharp */
         CHECK_CLOSE(first.mean_r, whole.mean_r, 5.0 * whole.mean_r_error);
         CHECK_CLOSE(first.mean_alpha_dot, first.omega, 1e-9);
     }
@@ -239,7 +239,7 @@ static void go_on(fst_watched_run *run, double periods)
         assert_int_equal(fst_watched_run_go_on(run, 1, &over, NULL), FST_OK);
 }
 
-/* Under dry friction a slipping lock that repels the bead is no rest, from however far it came: of those at 7.7
+/* Under dry friction a slipping lock that repels the bead is not a rest, from however far it came: of those at 7.7
  * Hz the bead comes to rest at the pair that attracts it, at 8.2 Hz at none. */
 static void test_unstable_slipping_rest(void **unused)
 {

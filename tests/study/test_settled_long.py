@@ -43,7 +43,7 @@ class Map(unittest.TestCase):
         librating = 0
         for point in known:
             a, b = settled[point], whole[point]
-            if a["regime"] == "librating":  # whole drive periods are no whole cycles: the long run's means are blunt
+            if a["regime"] == "librating":  # whole drive periods are not whole cycles: the long run's means are blunt
                 librating += 1
                 self.assertAlmostEqual(a["mean_r"], b["mean_r"], delta=1e-3)
                 continue

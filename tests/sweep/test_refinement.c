@@ -101,7 +101,7 @@ static void test_known_once(void **unused)
     fst_grid_free(grid);
 }
 
-/* A range of one point is no axis along which cells lie: the other one is refined as if it were alone. */
+/* A range of one point is not an axis along which cells lie: the other one is refined as if it were alone. */
 static void test_a_single_point(void **unused)
 {
     (void)unused;

@@ -404,7 +404,7 @@ class Damage(Journal):
         self.put("junk.db", bytes(range(256)) * 20)
         self.put("empty.db", b"")
         self.put("foreign", content_of(self.path("foreign.db")))
-        for name, kind in (("junk.db", "no database of a sweep"), ("empty.db", "no database of a sweep"),
+        for name, kind in (("junk.db", "not a database of a sweep"), ("empty.db", "not a database of a sweep"),
                            ("foreign.db", "another program made it"), ("foreign", "another program made it")):
             for words in (("export", self.path(name), "--csv"), ("plot", self.path(name), "-o", self.path("f.svg"))):
                 said = self.refused(*words)

@@ -220,7 +220,7 @@ class Forms(Over):
                              ("model.kappa=1:2:99999999999999999999", "1 to 1000000000"),
                              ("model.kappa=1:2", "must be KEY="), ("model.kappa", "must be KEY="),
                              ("model.kappa=", "missing"), ("model.kappa=1,,2", "missing"),
-                             ("model.kappa=nan:1:3", "no decimal number"), ("model.kappa=1:inf:3", "no decimal number"),
+                             ("model.kappa=nan:1:3", "not a decimal number"), ("model.kappa=1:inf:3", "not a decimal number"),
                              ("model.kappa=1:2:3:cubic", "unknown spacing"), ("model.kapa=1:2:3", "model.kappa"),
                              ("=1:2:3", "unknown key"), ("friction.contact_rate=0.01,0.02", "contact_rate is gone"),
                              ("contact.patch=point,pade", "choose hertz"), ("model.dynamics=rigit", "rigid")):

@@ -18,7 +18,7 @@ import events
 from sweep_tools import FESTOON, SHORT, SMALL, Case, festoon
 
 MPIRUN = ["mpirun", "--oversubscribe", "--allow-run-as-root", "--bind-to", "none"]
-# What Open MPI itself keeps until its end is no concern of the address sanitizer.
+# What Open MPI itself keeps until its end is not a concern of the address sanitizer.
 ENVIRONMENT = dict(os.environ, ASAN_OPTIONS="detect_leaks=0")
 
 

@@ -159,7 +159,7 @@ class Points(RefineCase):
         self.assertLess(sizes[0], 0.7 * len(values))
 
     def test_a_number_along_one_axis(self):
-        """Of 70 points the last one is no multiple of 8."""
+        """Of 70 points the last one is not a multiple of 8."""
         words = [*CHEAP, *over("drive.frequency=1Hz:40Hz:70")]
         values = [None if v is None else float(v) for v in self.values(words, "mean_r").values()]
         grid = Grid((70,), 3, dict(zip(places((70,)), values)), 0.1)

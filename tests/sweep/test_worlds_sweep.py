@@ -12,7 +12,7 @@ from sweep_tools import Case
 SCENES = os.path.join(os.environ["SOURCE_DIR"], "examples", "worlds")
 WAVE, WEAK = os.path.join(SCENES, "wave.yaml"), ("--set", "wave.amplitude=0.05 mT", "--set", "plate.radius=500")
 SHORT = ("--set", "run.periods=4", "--set", "run.discard=2")
-# scene, what is set, what is varied; a tilted plate is no file
+# scene, what is set, what is varied; a tilted plate is not a file
 POINTS = (("levitation.yaml", ("--set", "run.duration=0.05"), "medium.drag_rate=5,10"),
           ("bowl.yaml", SHORT, "plate.bowl_radius=0.3 m,0.5 m"),
           ("water.yaml", SHORT, "medium.density=500,1000"),

@@ -10,7 +10,7 @@
  *
  * All by + - * / and square roots.  The equations of motion, their tangents, energies, orbits and lanes follow.
  *
- * Modes.  A law that is no single smooth function, such as dry friction, which slips or sticks, has several
+ * Modes.  A law that is not a single smooth function, such as dry friction, which slips or sticks, has several
  * smooth modes (the column `modes` of physics.def).  The motion says in which mode the bead is (modes.inl).
  * Only dry friction has that, so a row of your own with more than one mode does not compile.
  *

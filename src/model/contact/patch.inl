@@ -1,4 +1,4 @@
-/* patch.inl - the contact of dry friction is no point but a small disc, over REAL.
+/* patch.inl - the contact of dry friction is not a point but a small disc, over REAL.
  *
  * Under the load N the bead and the plate touch in a disc of the radius a, pressed together most in the middle
  * (Hertz).  Where the bead pivots at the rate w = W.e while its middle slips at the speed |V|, the disc turns
