@@ -39,7 +39,7 @@ enum { FST_BEAD_TOUCHES = 36, FST_BEADS_EVENTS = 1000 };
 
 /* Then: the colour in figures, FST_COLOUR_*. */
 #define FST_BEADS_OUTCOMES(ROW)                                                                                \
-    ROW(BEADS_APART, "apart", "no bead touches another", BLUE)                                                 \
+    ROW(BEADS_APART, "apart", "no two beads stay together for a turn of the magnet", BLUE)                     \
     ROW(BEADS_WALKER, "walker", "the largest group turns with the magnet, and its centre circles otherwise",   \
         VERMILION)                                                                                             \
     ROW(BEADS_BAR, "bar", "the largest group turns with the magnet about the axis", GREEN)                     \
@@ -116,7 +116,7 @@ typedef struct fst_beads_result {
     fst_bead_touch *touches;
     int forces_unique; /* 0: more contacts than directions, so that the forces are one choice of many, or stepping,
                           which does not ask */
-    double drive_power, plate_power, pair_power, impact_power; /* means per mass of the first bead */
+    double drive_power, plate_power, pair_power, impact_power; /* means per mass of the first; NAN: all gone */
     double medium_power;                                       /* the same, to the medium */
     double restitution;                                        /* of impacts, as used */
     fst_beads_paradox paradox;                                 /* it ended the run, which is undecided */

@@ -172,6 +172,21 @@ static int ends_so(const char *word, const char *names, char *nearest, size_t si
     return 0;
 }
 
+/* "drive_power" for "power_drive": the first name of the word's parts in another order, those before one of its
+ * underscores last. */
+static int is_swapped(const char *word, const char *names, char *nearest, size_t size)
+{
+    char turned[LONGEST + 1];
+    for (const char *at = strchr(word, '_'); at; at = strchr(at + 1, '_')) {
+        (void)snprintf(turned, sizeof turned, "%s_%.*s", at + 1, (int)(at - word), word);
+        if (fst_name_place(turned, names) >= 0) {
+            (void)snprintf(nearest, size, "%s", turned);
+            return 1;
+        }
+    }
+    return 0;
+}
+
 /* "one, two, three" of "one|two|three". */
 static void write_list(const char *names, char *text)
 {
@@ -190,8 +205,8 @@ const char *fst_suggest_name(const char *word, const char *names, char text[FST_
     const size_t length = strlen(names);
     const char *meant = synonym_of(word, names);
     const int edits = fst_nearest_name(word, names, nearest, sizeof nearest);
-    const int near = meant || !strchr(names, '|') || is_near(word, nearest, edits) ||
-                     ends_so(word, names, nearest, sizeof nearest);
+    const int near = meant || !strchr(names, '|') || is_swapped(word, names, nearest, sizeof nearest) ||
+                     is_near(word, nearest, edits) || ends_so(word, names, nearest, sizeof nearest);
     if (length <= LIST_ALONE)
         write_list(names, list);
     if (!near && length <= LIST_ALONE)

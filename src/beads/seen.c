@@ -258,7 +258,7 @@ static fst_beads_outcome outcome_of_group(const fst_bead_group *group, double om
 {
     const size_t room = sizeof result->reason;
     if (group->kind == FST_BEAD_GROUP_SINGLE) {
-        (void)snprintf(result->reason, room, "no bead touches another");
+        (void)snprintf(result->reason, room, "no two beads stay together for a turn of the magnet");
         return FST_BEADS_APART;
     }
     if (group->kind == FST_BEAD_GROUP_RING || group->kind == FST_BEAD_GROUP_CLUSTER) {
@@ -338,11 +338,19 @@ static void decide(const beads_seen *seen, const beads_moment at[3], int same, f
     result->outcome = outcome_of_group(largest, seen->world->omega, result);
 }
 
+static int is_any_left(const beads_seen *seen)
+{
+    int left = 0;
+    for (int i = 0; i < seen->world->count; ++i)
+        left += !seen->gone[i];
+    return left > 0;
+}
+
 void beads_conclude(const beads_seen *seen, const beads_groups *groups, const beads_moment at[3],
                     fst_beads_result *result)
 {
     const beads_moment *from = &at[0], *to = &at[2];
-    const double time = to->time - from->time;
+    const double time = is_any_left(seen) ? to->time - from->time : NAN; /* no bead, no means */
     const int same = same_groups(groups, result);
     tell_beads(seen, at, result->beads);
     tell_groups(seen, at, same, result);

@@ -51,6 +51,7 @@ static void give_reason(const fst_beads_result *beads, const fst_groups *g, fst_
 {
     const fst_bead_result *bead = &beads->beads[0];
     const double mm = 1e3 * g->length_unit, seconds = g->time_unit;
+    const double up = g->gravity < 0 ? -bead->mean_height : bead->mean_height;
     const size_t room = sizeof run->reason;
     run->regime = bead->regime;
     if (bead->regime == FST_REGIME_EJECTED || bead->regime == FST_REGIME_TOUCHED ||
@@ -63,8 +64,10 @@ static void give_reason(const fst_beads_result *beads, const fst_groups *g, fst_
         run->regime = FST_REGIME_UNDECIDED;
         (void)snprintf(run->reason, room, "%s", beads->reason);
     } else if (bead->regime == FST_REGIME_LEVITATING)
-        (void)snprintf(run->reason, room, "it stays, on average %.5g mm over the magnet's reference plane",
-                       bead->mean_height * mm);
+        (void)snprintf(run->reason, room,
+                       up < 0 ? "it stays, on average %.5g mm below the magnet's reference plane"
+                              : "it stays, on average %.5g mm over the magnet's reference plane",
+                       fabs(up) * mm);
     else if (bead->regime == FST_REGIME_BACKWARD || bead->regime == FST_REGIME_FORWARD)
         (void)snprintf(
             run->reason, room, "it rolls %s the wave, locked to its field from %s, on average at %.5g mm/s",
@@ -100,7 +103,7 @@ static void fill(const fst_params *params, const fst_groups *g, const fst_surrou
     run->energy_residual = beads->energy_residual / beads->energy_scale;
     run->end_time = isnan(bead->ejected_at) ? beads->periods * FST_TWO_PI / g->omega : bead->ejected_at;
     run->periods = run->end_time * g->omega / FST_TWO_PI;
-    run->window_periods = beads->periods - fst_run_discard(params);
+    run->window_periods = isnan(bead->ejected_at) ? beads->periods - fst_run_discard(params) : NAN;
     run->rhs_calls = beads->rhs_calls;
     run->accepted = beads->accepted;
     run->rejected = beads->rejected;

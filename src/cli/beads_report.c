@@ -73,8 +73,9 @@ static void print_beads_table(const page *p, const fst_beads_result *result)
 
 static void print_power(const page *p, const char *name, double value)
 {
-    (void)fprintf(p->out, "  %-32s %-24.8g %.6g %s\n", name, unsigned_zero(value, ALL_DIGITS),
-                  unsigned_zero(value * p->power, ALL_DIGITS), p->power_unit);
+    if (isfinite(value))
+        (void)fprintf(p->out, "  %-32s %.8g %s\n", name, unsigned_zero(value * p->power, ALL_DIGITS),
+                      p->power_unit);
 }
 
 static void print_balance(const page *p, const fst_beads_result *result)
@@ -101,9 +102,12 @@ void print_beads(FILE *out, const fst_params *scene, const fst_beads_result *res
     char sentence[FST_BEADS_SENTENCE_SIZE];
     fst_beads_sentence(result, sentence, sizeof sentence);
     (void)fprintf(out, "%s\n  %s: %s\n", sentence, fst_beads_outcome_name(result->outcome), result->reason);
-    (void)fprintf(out, "\n  method %s, %.6g turns of the magnet at %.6g Hz, means behind the first %.6g\n",
+    (void)fprintf(out, "\n  method %s, %.6g turns of the magnet at %.6g Hz",
                   fst_beads_method_name(result->method), result->periods,
-                  result->omega * scene->friction_gamma / TWO_PI, fst_run_discard(scene));
+                  result->omega * scene->friction_gamma / TWO_PI);
+    if (isfinite(result->drive_power)) /* else no bead is left */
+        (void)fprintf(out, ", means behind the first %.6g", fst_run_discard(scene));
+    (void)fprintf(out, "\n");
     print_groups_table(&p, result);
     print_beads_table(&p, result);
     print_balance(&p, result);

@@ -56,10 +56,12 @@ static void print_world(const fst_params *params, const fst_world_result *result
     const char *second;
     const double time = fst_unit_shown("1/gamma", p->units, &p->scales, &second);
     (void)fprintf(out, "%s: %s\n\n", fst_regime_name(run->regime), run->reason);
-    (void)fprintf(out,
-                  "  %.6g periods of the drive (%.6g %s), in the frame of the %s, means over the last %.6g\n",
-                  run->periods, result->final_time * time, second,
-                  result->frame == FST_FRAME_LABORATORY ? "laboratory" : "turning magnet", run->window_periods);
+    (void)fprintf(out, "  %.6g periods of the drive (%.6g %s), in the frame of the %s", run->periods,
+                  result->final_time * time, second,
+                  result->frame == FST_FRAME_LABORATORY ? "laboratory" : "turning magnet");
+    if (isfinite(run->window_periods))
+        (void)fprintf(out, ", means over the last %.6g", run->window_periods);
+    (void)fprintf(out, "\n");
     print_line(p, "mean distance from the axis", run->mean_r, "mean_r", "l");
     print_line(p, "mean height", result->mean_height, "mean_height", "l");
     print_line(p, "bead's circling <alpha'>", run->mean_alpha_dot, "mean_alpha_dot", "gamma");

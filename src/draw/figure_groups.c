@@ -244,7 +244,7 @@ static int name_pairs(series *s)
     return 1;
 }
 
-/* Beads that touch at the end, directly or by others, as "at the end 0–1–2 touch, 3 is apart". */
+/* Beads that touch at the end, directly or by others, as "at the end together: 1+2+3; apart: 4". */
 static void tell_end(const series *s, char *text, size_t size)
 {
     int group[FST_BEADS_MOST], together = 0;
@@ -271,7 +271,7 @@ static void tell_end(const series *s, char *text, size_t size)
                                k > i  ? "+"
                                : used ? ", "
                                       : "",
-                               k);
+                               k + 1);
         together = together || members > 1;
     }
     (void)snprintf(text, size, "; at the end %s%s%s%s", together ? "together: " : "", list[0],

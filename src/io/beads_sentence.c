@@ -44,7 +44,7 @@ static int are_opposite(const fst_beads_result *result)
     return fabs(fabs(angle) * 180.0 / FST_PI - 180.0) < OPPOSITE && slow < SAME_RATE * result->omega;
 }
 
-/* No bead touches another. */
+/* No two beads stay together. */
 static void tell_apart(const fst_beads_result *result, char *text, size_t size)
 {
     static const char *const ways[] = {"", ", against the magnet", ", with the magnet",

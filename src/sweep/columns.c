@@ -318,10 +318,26 @@ int fst_sweep_row_is_sound(sqlite3_stmt *row, const fst_grid *grid, uint64_t see
            (uint64_t)sqlite3_column_int64(row, count) == fst_sweep_row_checksum(row, count, seed);
 }
 
-fst_status fst_sweep_check_key(const char *key, const char *where, fst_error *error)
+/* The keys of the rows of these kinds. */
+static void name_keys(int from, int to, char *names, size_t size)
+{
+    names[0] = '\0';
+    for (int kind = from; kind <= to; ++kind) {
+        const int is_run = kind == FST_ROWS_OF_RUNS;
+        if (is_run)
+            (void)snprintf(names, size, "regime|symmetry|rhs_calls");
+        for (int i = 0; i < (is_run ? fst_result_count() : fst_bead_column_count((fst_row_kind)kind)); ++i) {
+            const size_t used = strlen(names);
+            (void)snprintf(names + used, size - used, "%s%s", used ? "|" : "",
+                           is_run ? fst_result_at(i)->name : fst_bead_column_at((fst_row_kind)kind, i)->name);
+        }
+    }
+}
+
+fst_status fst_sweep_check_key(const fst_grid *grid, const char *key, const char *where, fst_error *error)
 {
     static const char *const texts[] = {"status", "reason", "dynamics"};
-    char names[4096] = "regime|symmetry|rhs_calls", suggestion[FST_SUGGESTION_SIZE];
+    char names[4096], suggestion[FST_SUGGESTION_SIZE];
     for (size_t i = 0; i < sizeof texts / sizeof *texts; ++i)
         if (strcmp(key, texts[i]) == 0)
             return fst_fail(error, FST_BAD_INPUT, where,
@@ -330,18 +346,11 @@ fst_status fst_sweep_check_key(const char *key, const char *where, fst_error *er
         return fst_fail(
             error, FST_BAD_INPUT, where,
             "%s is a parameter, no result: give regime, symmetry or a number of the runs, as mean_r", key);
-    for (int i = 0; i < fst_result_count(); ++i) {
-        const size_t used = strlen(names);
-        (void)snprintf(names + used, sizeof names - used, "|%s", fst_result_at(i)->name);
-    }
-    for (int kind = FST_ROWS_OF_BEADS; kind <= FST_ROWS_OF_LEVITATION; ++kind)
-        for (int i = 0; i < fst_bead_column_count((fst_row_kind)kind); ++i) {
-            const size_t used = strlen(names);
-            (void)snprintf(names + used, sizeof names - used, "|%s",
-                           fst_bead_column_at((fst_row_kind)kind, i)->name);
-        }
+    name_keys(FST_ROWS_OF_RUNS, FST_ROWS_OF_LEVITATION, names, sizeof names);
     if (fst_name_place(key, names) >= 0)
         return FST_OK;
+    if (grid)
+        name_keys((int)fst_grid_row_kind(grid), (int)fst_grid_row_kind(grid), names, sizeof names);
     return fst_fail(error, FST_BAD_INPUT, where, "unknown key \"%.60s\"; %s", key,
                     fst_suggest_name(key, names, suggestion));
 }

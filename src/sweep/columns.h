@@ -35,8 +35,9 @@ double fst_sweep_number(sqlite3_stmt *row, int column);
 /* Write a text without control characters as a field of CSV. */
 void fst_sweep_write_quoted(FILE *out, const char *tame);
 
-/* Whether rows have this key.  FST_BAD_INPUT: no; the sentence names the nearest one. */
-fst_status fst_sweep_check_key(const char *key, const char *where, fst_error *error);
+/* Whether rows of some sweep have this key.  FST_BAD_INPUT: no; the sentence names the nearest one, of the rows of `grid`
+ * unless it is NULL. */
+fst_status fst_sweep_check_key(const fst_grid *grid, const char *key, const char *where, fst_error *error);
 
 /* The checksum of the first `count` values of a row that was read. */
 uint64_t fst_sweep_row_checksum(sqlite3_stmt *row, int count, uint64_t seed);

@@ -236,11 +236,9 @@ fst_status fst_sweep_export_keys(const char *path, const char *const *keys, int 
     table_writer w = {.keys = keys, .count = count, .units = units, .stream = stream, .progress = progress};
     fst_refining refining;
     fst_status status = FST_OK;
-    for (int i = 0; i < w.count && status == FST_OK; ++i)
-        status = fst_sweep_check_key(w.keys[i], "fst_sweep_export_keys.keys", error);
-    if (status != FST_OK)
-        return status;
     status = fst_sweep_file_open(path, 0, &w.file, error);
+    for (int i = 0; i < w.count && status == FST_OK; ++i)
+        status = fst_sweep_check_key(w.file.grid, w.keys[i], "fst_sweep_export_keys.keys", error);
     if (status == FST_OK)
         status = fst_refining_read(&w.file.lines, path, &refining, error);
     if (status == FST_OK) {

@@ -35,7 +35,7 @@ fst_status fst_refining_of(const fst_sweep_options *o, fst_refining *refining, f
     if (o->carry != FST_CARRY_NO)
         return fst_fail(error, FST_BAD_INPUT, "fst_sweep_options.refine",
                         "a carried sweep cannot be refined: each of its runs starts from the one before it");
-    const fst_status status = fst_sweep_check_key(key, "fst_sweep_options.refine_by", error);
+    const fst_status status = fst_sweep_check_key(NULL, key, "fst_sweep_options.refine_by", error);
     if (status != FST_OK)
         return status;
     (void)snprintf(refining->key, sizeof refining->key, "%s", key);
@@ -89,7 +89,7 @@ fst_status fst_refining_read(const fst_identity_lines *lines, const char *path, 
     if (!text)
         return FST_OK;
     if (sscanf(text, "%d %47s %39s", &refining->levels, key, step) == 3 && refining->levels >= 1 &&
-        fst_sweep_check_key(key, "", NULL) == FST_OK) {
+        fst_sweep_check_key(NULL, key, "", NULL) == FST_OK) {
         (void)snprintf(refining->key, sizeof refining->key, "%s", key);
         refining->step = fst_number_read(step, strlen(step), 0);
         write_text(lines, refining, written);

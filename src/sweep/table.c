@@ -63,13 +63,11 @@ fst_status fst_sweep_read(const char *path, const char *const *keys, int count, 
 {
     memset(table, 0, sizeof *table);
     fst_status status = FST_OK;
-    for (int i = 0; i < count && status == FST_OK; ++i)
-        status = fst_sweep_check_key(keys[i], "fst_sweep_read.keys", error);
-    if (status != FST_OK)
-        return status;
     fst_sweep_file file;
     fst_refining refining;
     status = fst_sweep_file_open(path, 0, &file, error);
+    for (int i = 0; i < count && status == FST_OK; ++i)
+        status = fst_sweep_check_key(file.grid, keys[i], "fst_sweep_read.keys", error);
     if (status == FST_OK)
         status = fst_refining_read(&file.lines, path, &refining, error);
     if (status == FST_OK) {

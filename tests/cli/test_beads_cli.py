@@ -65,6 +65,21 @@ class Runs(Beads):
         self.assertEqual(run["counts"]["touch"], sum(event["kind"] == "touch" for event in run["events"]))
         self.assertLess(abs(run["energy_residual"]), 1e-12)
 
+    def test_apart_does_not_deny_a_contact(self):
+        """These two touch at the end, but have not for a turn of the magnet."""
+        run = self.run_of(SNAP.replace("53 deg", "60 deg"), "--set", "contact.pair_rate=312.5", turns=3.54, discard=1.5)
+        self.assertIn((0, 1), {(contact["a"], contact["b"]) for contact in run["contacts"]})
+        self.assertEqual((run["outcome"], run["reason"]), ("apart", "no two beads stay together for a turn of the magnet"))
+
+    def test_beads_that_are_all_gone_have_no_means(self):
+        words = ("--set", "plate.radius=21mm", "--set", "beads[0].start.r=0.9", "--set", "beads[1].start.r=0.9")
+        run = self.run_of(OPPOSITE, *words, turns=40, discard=20)
+        self.assertEqual([bead["regime"] for bead in run["beads"]], ["ejected"] * 2)
+        self.assertEqual(set(run["powers"].values()), {None}, run["powers"])
+        text = self.good("run", self.scene(OPPOSITE), "--set", "run.periods=40", "--set", "run.discard=20", *words)
+        for word in ("means behind", "power", "nan"):
+            self.assertNotIn(word, text)
+
     def test_a_bar_of_two(self):
         run = self.run_of(bar(2), turns=60, discard=59)
         self.assertEqual(run["outcome"], "bar")

@@ -133,6 +133,8 @@ def test_worlds_and_several_beads_in_all_units():
                 cells.append([float(cell) for cell in lines[len(lines) // 2].split(",")])
                 # A line of a report ends in numbers and their unit; tables have their units above the numbers.
                 found = re.findall(r"^  (?:[a-z<'].*?)  +((?:-?[\d.e+-]+ +)*-?[\d.e+-]+)  ?([a-zA-Z/^ 0-9]*)$", texts[-1], re.M)
+                powers = [line for line in texts[-1].splitlines() if line.startswith("  power ")]
+                assert powers and all(re.fullmatch(r"  power .*[a-z]  +[\d.e+-]+ +[a-zA-Z].*", line) for line in powers), "one number each"
                 reports.append([(float(number.split()[-1]), unit.strip()) for number, unit in found])
             result = json.loads(subprocess.run([*run_it, "--json"], capture_output=True, text=True, check=True).stdout)
             told = result["scene"]

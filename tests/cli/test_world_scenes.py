@@ -33,6 +33,7 @@ class Worlds(Case):
         self.assertEqual((run["regime"], run["frame"]), ("levitating", "turning"))
         self.assertLess(abs(run["energy_residual"]), 1e-10)
         self.assertAlmostEqual(run["final_lab_si"][2], 25.056e-3, delta=2e-5)
+        self.assertRegex(run["reason"], r"on average 25\.05\d* mm below the magnet's reference plane$")  # gravity is negative
         self.assertEqual(len(run["final_lab"]), 12)
         # 600 whole turns: the magnet's axes are the laboratory's again
         for one, other in zip(run["final_lab"], run["final_state"]):
@@ -47,6 +48,17 @@ class Worlds(Case):
         self.assertAlmostEqual(best["height_mm"], 25.056, delta=2e-2)
         self.assertEqual(len(best["eigenvalues_per_s"]), 11)
         self.assertAlmostEqual(math.hypot(*best["n"]), 1, delta=1e-12)
+
+    def test_a_bead_that_is_lost_has_no_means(self):
+        """It lives 15 periods, and its window would begin after 225."""
+        words = ("run", self.scene("levitation"), "--set", "drive.frequency=150Hz")
+        lost, text = json.loads(self.good(*words, "--json")), self.good(*words)
+        self.assertEqual(lost["regime"], "lost")
+        means = {key: value for key, value in lost.items() if key.startswith("mean_") or key == "window_periods"}
+        self.assertEqual(set(means.values()), {None}, means)
+        self.assertIsNotNone(lost["energy_residual"])  # of the whole run
+        for word in ("means over", "power", "nan"):
+            self.assertNotIn(word, text)
 
     def test_branch_of_levitation(self):
         scene, path, figure = self.scene("levitation"), self.path("b.json"), self.path("b.svg")

@@ -7,6 +7,7 @@ import csv
 import json
 import math
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -136,6 +137,8 @@ class Beads(unittest.TestCase):
         outcome = json.loads(told[len("# result = "):])["outcome"]
         self.assertIn(f"Groups of 3 beads: {outcome}", script)
         self.assertIn("set label 'gap (mm)'", script)
+        # people count beads from 1, here as in the key and the panels
+        self.assertEqual(set(re.findall(r"\d", re.search("at the end ([^']*)", script)[1])), {"1", "2", "3"})
         pairs = ((0, 1), (0, 2), (1, 2))
         for a, b in pairs:
             (_, gaps), = curves[f"beads {a + 1} and {b + 1}"]

@@ -154,6 +154,12 @@ class ExportKeys(Case):
         self.assertIn("nearest is lab", self.refused("export", path, "--csv", "--units", "labs", "-o", out))
         self.assertIn("belong to --csv", self.refused("export", path, "--json", "--units", "lab", "-o", out))
         self.assertEqual(os.listdir(self.directory), ["a.db"])
+        beads = self.path("beads.db")
+        self.good("sweep", *SHORT, "--set", "beads[0].start.phi=3", "--set", "beads[1].start.phi=183", "--over", "drive.frequency=30", "-o", beads)
+        for wrong in ("power_drive", "norm_drif"):  # of what this file has
+            told = self.refused("export", beads, "--csv", "--quantity", wrong, "-o", out)
+            self.assertIn("drive_power", told)
+            self.assertNotIn("norm_drift", told)
 
 
 if __name__ == "__main__":

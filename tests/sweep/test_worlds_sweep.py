@@ -46,6 +46,11 @@ class Sweeps(Case):
                     for column in columns:
                         self.assertEqual(row[column], run[column], column)
 
+    def test_a_lost_bead_has_no_powers(self):
+        name, keys = self.path("lost.db"), "regime,mean_drive_power,mean_medium_power,window_periods"
+        self.good("sweep", os.path.join(SCENES, "levitation.yaml"), "--over", "drive.frequency=150Hz", "-o", name)
+        self.assertEqual(self.good("export", name, "--csv", "--quantity", keys).splitlines()[1], "150,lost,,,,done")
+
     def test_a_sweep_goes_on(self):
         name, other, over = self.path("s.db"), self.path("t.db"), "drive.frequency=10Hz:20Hz:4"
         words = ("sweep", os.path.join(SCENES, "bowl.yaml"), *SHORT, "--over", over)

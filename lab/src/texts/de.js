@@ -130,7 +130,7 @@ export default {
         lost: "verloren", backward: "rückwärts", forward: "vorwärts", drifting: "driftend", ejected: "hinausgeworfen", lifted: "abgehoben", undecided: "unentschieden",
     },
     outcomes: {
-        apart: "Getrennt: Keine Kugel berührt eine andere.",
+        apart: "Getrennt: Keine zwei Kugeln bleiben eine Umdrehung des Magneten lang zusammen.",
         walker: "Ein Läufer: Kugeln in Berührung drehen sich mit dem Magneten, und ihre Mitte geht einen eigenen Weg um die Achse.",
         bar: "Ein Stab: Kugeln in Berührung drehen sich mit dem Magneten um die Achse.",
         ring: "Ein Ring: Kugeln in Berührung bilden einen geschlossenen Ring.",

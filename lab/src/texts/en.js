@@ -133,7 +133,7 @@ export default {
     },
     /* What several beads do; the library's own sentence, with numbers, is in the details. */
     outcomes: {
-        apart: "Apart: no bead touches another.",
+        apart: "Apart: no two beads stay together for a turn of the magnet.",
         walker: "A walker: beads in touch turn with the magnet, and their centre goes its own way round the axis.",
         bar: "A bar: beads in touch turn with the magnet about the axis.",
         ring: "A ring: beads in touch form a closed ring.",

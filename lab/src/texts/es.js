@@ -130,7 +130,7 @@ export default {
         lost: "perdida", backward: "hacia atrás", forward: "hacia delante", drifting: "a la deriva", ejected: "expulsada", lifted: "despegada", undecided: "sin decidir",
     },
     outcomes: {
-        apart: "Separadas: ninguna bola toca a otra.",
+        apart: "Separadas: no hay dos bolas que sigan juntas durante una vuelta del imán.",
         walker: "Un caminante: unas bolas en contacto giran con el imán, y su centro sigue su propio camino en torno al eje.",
         bar: "Una barra: unas bolas en contacto giran con el imán en torno al eje.",
         ring: "Un anillo: unas bolas en contacto forman un anillo cerrado.",

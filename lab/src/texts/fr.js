@@ -134,7 +134,7 @@ export default typeset({
         lost: "perdue", backward: "à rebours", forward: "en avant", drifting: "à la dérive", ejected: "éjectée", lifted: "décollée", undecided: "indécis",
     },
     outcomes: {
-        apart: "Séparées : aucune bille n’en touche une autre.",
+        apart: "Séparées : deux billes ne restent jamais ensemble pendant un tour de l’aimant.",
         walker: "Un marcheur : des billes en contact tournent avec l’aimant, et leur centre suit son propre chemin autour de l’axe.",
         bar: "Une barre : des billes en contact tournent avec l’aimant autour de l’axe.",
         ring: "Un anneau : des billes en contact forment un anneau fermé.",

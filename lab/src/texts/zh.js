@@ -130,7 +130,7 @@ export default {
         lost: "丢失", backward: "后退", forward: "前进", drifting: "漂移", ejected: "甩出", lifted: "离板", undecided: "未定",
     },
     outcomes: {
-        apart: "分离：没有小球相互接触。",
+        apart: "分离：没有两个小球在磁铁转一圈的时间里一直在一起。",
         walker: "行走的一群：相接触的小球随磁铁转动，其中心沿自己的路径绕转轴运动。",
         bar: "一根棒：相接触的小球随磁铁绕转轴转动。",
         ring: "一个环：相接触的小球排成闭合的环。",

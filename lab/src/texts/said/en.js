@@ -141,12 +141,13 @@ export default {
         /* of one bead in a world */
         after: "after {n} s the bead {how}",
         stays: "it stays, on average {mm} mm over the magnet's reference plane",
+        staysBelow: "it stays, on average {mm} mm below the magnet's reference plane",
         locked: "it rolls {way} the wave, locked to its field from {side}, on average at {v} mm/s",
         noLock: "its velocity is that of no lock: on average {v} mm/s along the wave",
         noWord: "under this drive a motion has no word of its own; the bead circles at {f} Hz",
         circles: "the bead circles at {n} of the drive's rate",
         /* of several beads */
-        noTouch: "no bead touches another",
+        noTouch: "no two beads stay together for a turn of the magnet",
         form: "{n} beads form a {group}",
         chain: "the axis of {n} beads turns at {rate} of the drive's rate, their centre at {centre}, {r} l from the axis",
         chainAtAxis: "the axis of {n} beads turns at {rate} of the drive's rate, their centre stays at the axis",
