@@ -230,7 +230,8 @@ FST_API double fst_fitted_radius(const fst_measurement *measured, double t);
  * the drive (databases) or branches over the drive (JSON), a panel for each quantity.  Of the options (NULL:
  * all zeros) count the keys (names of fst_measured; none: all that was measured), the units (as given: mm and
  * Hz), title and size.  chi^2 is the sum over all measured numbers of these for which there is a curve at
- * their frequency (of a branch: the nearest stable one), and `counted` says how many these are; `left_out`
+ * their frequency (of a branch: the nearest stable one; of a sweep: a run, or two neighbours of one regime, none
+ * of them undecided), and `counted` says how many these are; `left_out`
  * names the others with the reason, each on a line, as many as have room; `fits` (NULL: not wanted) has room
  * for result_count * point_count, those of result m and table p at m * point_count + p. FST_BAD_INPUT: scaled
  * units, and two results differ in l or gamma. */

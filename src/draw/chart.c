@@ -104,9 +104,11 @@ static void range_of(const fst_chart_curve *curves, int count, int abscissa, int
     for (int c = 0; c < count; ++c)
         for (size_t i = 0; i < curves[c].count && curves[c].right == right; ++i) {
             const double value = abscissa ? curves[c].x[i] : curves[c].y[i];
+            const double bar =
+                !abscissa && curves[c].spread && isfinite(curves[c].spread[i]) ? curves[c].spread[i] : 0.0;
             if (isfinite(value)) {
-                least = fmin(least, value);
-                greatest = fmax(greatest, value);
+                least = fmin(least, value - bar);
+                greatest = fmax(greatest, value + bar);
             }
         }
     *low = isfinite(*low) ? *low : least;

@@ -10,6 +10,15 @@
 fst_status fst_sweep_curves(const fst_sweep_table *table, const fst_sweep_quantity *quantities, int count,
                             const fst_sweep_slice *slice, int plain, fst_chart **chart, fst_error *error);
 
+/* Which sign stands for a run of this state, because it is no motion or an undecided one; -1: none, or there is no run. */
+int fst_sweep_gap(const char *state_key, double state, int computed);
+
+enum { FST_SWEEP_GAPS = 6, FST_SWEEP_UNDECIDED = 0, FST_SWEEP_FAILED = FST_SWEEP_GAPS - 1 };
+
+/* Such signs, without their places: for a panel whose right ordinate reaches from 0 to 1.  The title is a word. */
+fst_chart_curve fst_sweep_sign(const char *state_key, int gap);
+#define FST_SWEEP_EDGE 0.03 /* how high signs stand over the lower edge, in parts of the panel */
+
 fst_status fst_figure_sweep_map(const fst_sweep_table *table, const fst_sweep_quantity *quantity,
                                 const fst_sweep_slice *slice, const fst_sweep_figure *options, const char *out,
                                 fst_error *error);

@@ -77,17 +77,38 @@ static int add_regimes(drawing *d, const double *regime, const double *values)
 static const struct {
     const char *word;
     int sign;
-} signs[] = {{"undecided", 1}, {"ejected", 8}, {"lifted", 10}, {"touched", 12}, {"lost", 3}, {"failed", 2}};
-enum { UNDECIDED, SIGNS = sizeof signs / sizeof *signs, FAILED = SIGNS - 1 };
+} signs[FST_SWEEP_GAPS] = {{"undecided", 1}, {"ejected", 8}, {"lifted", 10},
+                           {"touched", 12},  {"lost", 3},    {"failed", 2}};
+enum { SIGNS = FST_SWEEP_GAPS, FAILED = FST_SWEEP_FAILED };
 
-static const double EDGE = 0.03; /* how high signs stand over the lower edge, in parts of the panel */
+int fst_sweep_gap(const char *state_key, double state, int computed)
+{
+    const fst_sweep_names *names = fst_sweep_names_of(state_key);
+    if (isnan(state))
+        return computed ? FAILED : -1;
+    for (int g = 0; g < FAILED; ++g)
+        if (fst_name_place(signs[g].word, names->words) == (int)state)
+            return g;
+    return -1;
+}
+
+fst_chart_curve fst_sweep_sign(const char *state_key, int gap)
+{
+    const fst_sweep_names *names = fst_sweep_names_of(state_key);
+    return (fst_chart_curve){.title = signs[gap].word,
+                             .colour = gap == FAILED
+                                           ? FST_COLOUR_BLACK
+                                           : names->colours[fst_name_place(signs[gap].word, names->words)],
+                             .style = FST_CURVE_OPEN_POINTS,
+                             .right = 1,
+                             .sign = signs[gap].sign};
+}
 
 /* Which of these the points are that are drawn; the key of their states is the one behind `count` others.  0: no memory. */
 static int note_gaps(drawing *d, const fst_sweep_slice *slice, int count)
 {
     const fst_grid *grid = d->table->grid;
     const double *all = d->table->values + (size_t)count * (size_t)fst_grid_points(grid);
-    const fst_sweep_names *names = fst_sweep_names_of(fst_sweep_state_key(grid));
     const double *states = values_of(d, count, 1.0);
     d->gaps = fst_chart_keep(d->chart, (d->points + 1) * sizeof *d->gaps);
     d->all_gaps = d->points > 0;
@@ -96,12 +117,8 @@ static int note_gaps(drawing *d, const fst_sweep_slice *slice, int count)
         d->failed += d->table->computed[point] && isnan(all[point]);
     }
     for (size_t i = 0; states && d->gaps && i < d->points; ++i) {
-        const int failed = isnan(states[i]) && d->table->computed[d->chosen[i]];
-        d->gaps[i] = failed ? FAILED : -1;
-        for (int g = 0; g < FAILED && isfinite(states[i]); ++g)
-            if (fst_name_place(signs[g].word, names->words) == (int)states[i])
-                d->gaps[i] = g;
-        d->all_gaps &= d->gaps[i] > UNDECIDED;
+        d->gaps[i] = fst_sweep_gap(fst_sweep_state_key(grid), states[i], d->table->computed[d->chosen[i]]);
+        d->all_gaps &= d->gaps[i] > FST_SWEEP_UNDECIDED;
     }
     return states && d->gaps;
 }
@@ -110,23 +127,21 @@ static int note_gaps(drawing *d, const fst_sweep_slice *slice, int count)
  * with one too.  0: no memory. */
 static int add_signs(drawing *d, const double *values, int told)
 {
-    const fst_sweep_names *names = fst_sweep_names_of(fst_sweep_state_key(d->table->grid));
     char failed[48];
     (void)snprintf(failed, sizeof failed, "failed: %zu point%s", d->failed, d->failed == 1 ? "" : "s");
     for (int g = 0; g < SIGNS; ++g) {
         double *y = fst_chart_keep(d->chart, (d->points + 1) * sizeof *y);
-        const char *title = fst_chart_text(d->chart, g == FAILED ? failed : signs[g].word);
-        if (!y || !title)
+        fst_chart_curve sign = fst_sweep_sign(fst_sweep_state_key(d->table->grid), g);
+        sign.title = fst_chart_text(d->chart, g == FAILED ? failed : sign.title);
+        if (!y || !sign.title)
             return 0;
         for (size_t i = 0; i < d->points; ++i)
-            y[i] = d->gaps[i] == g && !(told && isfinite(values[i])) ? EDGE : NAN;
-        if (!any_value(y, d->points))
-            continue;
-        add_curve(d, y, title,
-                  g == FAILED ? FST_COLOUR_BLACK : names->colours[fst_name_place(signs[g].word, names->words)],
-                  FST_CURVE_OPEN_POINTS);
-        d->curves[d->curve_count - 1].right = 1;
-        d->curves[d->curve_count - 1].sign = signs[g].sign;
+            y[i] = d->gaps[i] == g && !(told && isfinite(values[i])) ? FST_SWEEP_EDGE : NAN;
+        sign.x = d->x;
+        sign.y = y;
+        sign.count = d->points;
+        if (any_value(y, d->points))
+            d->curves[d->curve_count++] = sign;
     }
     return 1;
 }

@@ -9,6 +9,7 @@
 #include "draw/caption.h"
 #include "draw/charts_over.h"
 #include "draw/figure_branch.h"
+#include "draw/figure_sweep.h"
 #include "draw/legend.h"
 
 /* Everything that is drawn. */
@@ -108,21 +109,23 @@ static int put_model(drawing *d, int m, int quantity, int stable, int *named, fs
         const int joined = before && before->x[1] == here->x[0] && before->y[1] == here->y[0];
         if (before && !joined)
             x[count] = y[count] = NAN, ++count; /* a gap */
-        for (int end = joined; end < 2; ++end, ++count) {
+        /* A run alone is one point. */
+        const int ends = here->x[0] == here->x[1] && here->y[0] == here->y[1] ? 1 : 2;
+        for (int end = joined; end < ends; ++end, ++count) {
             x[count] = d->frequency * here->x[end];
             y[count] = d->factors[quantity] * here->y[end];
         }
         before = here;
     }
-    *curve =
-        (fst_chart_curve){.title = stable                ? d->model_words[m]
-                                   : d->result_count > 1 ? (*named ? NULL : "unstable")
-                                                         : "model, unstable",
-                          .x = x,
-                          .y = y,
-                          .count = count,
-                          .colour = !stable && d->result_count == 1 ? FST_COLOUR_GREY : fst_chart_colour(m),
-                          .style = stable ? FST_CURVE_LINE : FST_CURVE_DASHED};
+    *curve = (fst_chart_curve){
+        .title = stable                ? d->model_words[m]
+                 : d->result_count > 1 ? (*named ? NULL : "unstable")
+                                       : "model, unstable",
+        .x = x,
+        .y = y,
+        .count = count,
+        .colour = !stable && d->result_count == 1 ? FST_COLOUR_GREY : fst_chart_colour(m),
+        .style = stable ? p->is_sweep ? FST_CURVE_LINE_POINTS : FST_CURVE_LINE : FST_CURVE_DASHED};
     *named |= !stable && count;
     return x != NULL;
 }
@@ -166,6 +169,46 @@ static int put_specials(drawing *d, int m, int quantity, fst_chart_curve *curves
     return count;
 }
 
+/* The runs of one model that are no motion, as signs at the lower edge, `level` lines higher because other models may have
+ * signs at the same place.  Returns as put_specials() does. */
+static int put_gaps(drawing *d, int m, int level, int *named, fst_chart_curve *curves)
+{
+    const fst_point_curves *p = &d->models[m];
+    int count = 0,
+        nameless = d->result_count > 1 && p->count[FST_MEASURED_MEAN_R] == 0; /* no curve has its name */
+    for (int gap = 0; gap < FST_SWEEP_GAPS; ++gap) {
+        double *x = fst_chart_keep(d->chart, 2 * (p->gap_count + 1) * sizeof *x), *y = x + p->gap_count;
+        size_t found = 0;
+        if (!x)
+            return -1;
+        for (size_t i = 0; i < p->gap_count; ++i)
+            if (p->gaps[i].gap == gap) {
+                x[found] = d->frequency * p->gaps[i].x;
+                y[found++] = FST_SWEEP_EDGE + 0.04 * level;
+            }
+        if (found == 0)
+            continue;
+        fst_chart_curve *here = &curves[count++];
+        *here = fst_sweep_sign("regime", gap);
+        here->x = x;
+        here->y = y;
+        here->count = found;
+        if (d->result_count > 1)
+            here->colour = fst_chart_colour(m);
+        if (nameless) {
+            char words[192];
+            (void)snprintf(words, sizeof words, "%s: %s", d->model_words[m], here->title);
+            here->title = fst_chart_text(d->chart, words);
+            nameless = 0;
+        } else if (*named & 2 << gap) {
+            here->title = NULL; /* the key names a sign once */
+        } else {
+            *named |= 2 << gap;
+        }
+    }
+    return count;
+}
+
 /* What one table has of a quantity, with its errors. */
 static int put_points(drawing *d, int p, int quantity, fst_chart_curve *curve)
 {
@@ -195,25 +238,36 @@ static int put_points(drawing *d, int p, int quantity, fst_chart_curve *curve)
 static int put_panel(drawing *d, int quantity, int *named)
 {
     fst_chart_curve *curves =
-        fst_chart_keep(d->chart, (3 + FST_SPECIAL_COUNT) * FST_CHARTS_OVER * sizeof *curves);
+        fst_chart_keep(d->chart, (3 + FST_SPECIAL_COUNT + FST_SWEEP_GAPS) * FST_CHARTS_OVER * sizeof *curves);
     fst_chart_panel *panel = &d->panels[d->chart->panel_count];
-    int good = curves != NULL, count = 0;
+    int good = curves != NULL, count = 0, level = 0, known = 0;
     size_t measured = 0;
     for (int m = 0; m < d->result_count && good; ++m)
         for (int stable = 1; stable >= 0 && good; --stable)
             good = put_model(d, m, quantity, stable, named, &curves[count++]);
     for (int m = 0; m < d->result_count && good; ++m) {
+        known |= d->models[m].is_sweep || d->models[m].count[quantity] > 0;
         const int specials = put_specials(d, m, quantity, &curves[count]);
         good = specials >= 0;
         count += good ? specials : 0;
+    }
+    for (int m = 0; m < d->result_count && good; ++m) {
+        const int gaps = put_gaps(d, m, level, named, &curves[count]);
+        good = gaps >= 0;
+        count += good ? gaps : 0;
+        level += gaps > 0;
     }
     for (int p = 0; p < d->table_count && good; ++p) {
         good = put_points(d, p, quantity, &curves[count]);
         measured += curves[count++].count;
     }
-    *panel = (fst_chart_panel){
-        .left_label = d->labels[quantity], .low = NAN, .high = NAN, .curves = curves, .curve_count = count};
-    d->chart->panel_count += measured > 0;
+    *panel = (fst_chart_panel){.left_label = d->labels[quantity],
+                               .low = NAN,
+                               .high = NAN,
+                               .right_high = 1.0,
+                               .curves = curves,
+                               .curve_count = count};
+    d->chart->panel_count += measured > 0 && known; /* a branch has not all quantities */
     return good;
 }
 
@@ -246,8 +300,11 @@ static fst_status draw(drawing *d, const fst_sweep_figure *options, const char *
         if (d->wanted[q])
             good = put_panel(d, q, &named);
     choose_range(d);
-    const fst_status status =
-        good ? fst_figure_chart_as(out, d->chart, options->title, options->size, error) : no_memory(error);
+    const fst_status status = good && d->chart->panel_count == 0
+                                  ? fst_fail(error, FST_BAD_INPUT, d->results[0],
+                                             "a branch has none of the measured quantities that are asked for")
+                              : good ? fst_figure_chart_as(out, d->chart, options->title, options->size, error)
+                                     : no_memory(error);
     fst_chart_free(d->chart);
     return status;
 }

@@ -1,8 +1,8 @@
 /* point_curves.c - curves of sweeps and branches as straight pieces, and chi^2 of measured points before them.
  *
  * A curve is made of straight pieces between neighbouring rows of a sweep with the same regime, or along the
- * smooth curve of a branch, whose points are few.  What was measured is compared with stable states alone: no bead stays on
- * others.
+ * smooth curve of a branch, whose points are few.  A row alone in its regime is a piece without length.  What was measured is
+ * compared with stable states alone: no bead stays on others.
  */
 #include "measure/point_curves.h"
 
@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/number.h"
 #include "draw/figure_branch.h"
+#include "draw/figure_sweep.h"
 
 static fst_status make_room(fst_point_curves *p, size_t room, fst_error *error)
 {
@@ -29,6 +30,7 @@ void fst_point_curves_free(fst_point_curves *p)
     for (int q = 0; q < FST_MEASURED_COUNT; ++q)
         free(p->list[q]);
     free(p->specials);
+    free(p->gaps);
     free(p->scene);
 }
 
@@ -74,18 +76,28 @@ static fst_status find_axis(const fst_grid *grid, const char *path, int *axis, d
 
 typedef struct sweep_row {
     double x, regime, value[FST_MEASURED_COUNT];
+    int computed;
 } sweep_row;
-
-/* Locked and librating beads are of one curve. */
-static double kind_of(double regime)
-{
-    return regime == FST_REGIME_LIBRATING ? FST_REGIME_LOCKED : regime;
-}
 
 static int by_x(const void *a, const void *b)
 {
     const double p = ((const sweep_row *)a)->x, q = ((const sweep_row *)b)->x;
     return (p > q) - (p < q);
+}
+
+/* Join neighbouring rows of one regime; runs without a motion are apart. */
+static void join_rows(const sweep_row *rows, size_t count, fst_point_curves *p)
+{
+    for (size_t i = 0, before = 0; i < count; ++i) {
+        const int gap = fst_sweep_gap("regime", rows[i].regime, rows[i].computed);
+        const size_t next = i + 1 < count && gap < 0 && rows[i + 1].regime == rows[i].regime;
+        const size_t end = i + next;
+        if (gap >= 0)
+            p->gaps[p->gap_count++] = (fst_curve_gap){rows[i].x, gap};
+        for (int q = 0; q < FST_MEASURED_COUNT && gap < 0 && (next || !before); ++q)
+            add_piece(p, q, (double[]){rows[i].x, rows[end].x}, rows[i].value[q], rows[end].value[q], 1);
+        before = next;
+    }
 }
 
 static fst_status take_sweep(const char *path, fst_point_curves *p, fst_error *error)
@@ -99,31 +111,31 @@ static fst_status take_sweep(const char *path, fst_point_curves *p, fst_error *e
         return status;
     const size_t count = (size_t)fst_grid_points(table.grid);
     const fst_params *base = fst_grid_base(table.grid);
+    p->is_sweep = 1;
     p->length = base->magnet_half_length;
     p->gamma = base->friction_gamma;
     const double factors[] = {p->length, p->length, p->gamma / FST_TWO_PI};
     sweep_row *rows = malloc((count + 1) * sizeof *rows);
+    p->gaps = malloc((count + 1) * sizeof *p->gaps);
     p->scene = malloc(sizeof *p->scene);
     if (p->scene && fst_grid_params(table.grid, 0, p->scene, NULL) != FST_OK)
         *p->scene = *base;
-    status = rows && p->scene ? find_axis(table.grid, path, &axis, &hertz, error)
-                              : fst_fail(error, FST_NO_MEMORY, path, "no memory for %zu rows", count);
+    status = rows && p->gaps && p->scene
+                 ? find_axis(table.grid, path, &axis, &hertz, error)
+                 : fst_fail(error, FST_NO_MEMORY, path, "no memory for %zu rows", count);
     if (status == FST_OK)
         status = make_room(p, count, error);
     for (size_t i = 0; i < count && status == FST_OK; ++i) {
         rows[i].x = hertz * fst_grid_value(table.grid, axis, (int64_t)i);
-        rows[i].regime = kind_of(table.values[3 * count + i]);
+        rows[i].regime = table.values[3 * count + i];
+        rows[i].computed = table.computed[i];
         for (size_t q = 0; q < FST_MEASURED_COUNT; ++q)
             rows[i].value[q] = factors[q] * table.values[q * count + i];
     }
     if (status == FST_OK)
         qsort(rows, count, sizeof *rows, by_x);
-    for (size_t i = 0; i + 1 < count && status == FST_OK; ++i) {
-        const double x[2] = {rows[i].x, rows[i + 1].x};
-        for (int q = 0; q < FST_MEASURED_COUNT; ++q)
-            if (rows[i].regime == rows[i + 1].regime)
-                add_piece(p, q, x, rows[i].value[q], rows[i + 1].value[q], 1);
-    }
+    if (status == FST_OK)
+        join_rows(rows, count, p);
     free(rows);
     fst_sweep_table_free(&table);
     return status;
@@ -146,9 +158,10 @@ static fst_status take_curves(const fst_branch *b, double hertz, fst_point_curve
                                    : fst_fail(error, FST_NO_MEMORY, "", "no memory for the curves of a branch");
     for (int i = 0; i < 4 && status == FST_OK; ++i)
         for (size_t k = 0; k + 1 < curves[i].count; ++k)
-            add_piece(p, i < 2 ? FST_MEASURED_MEAN_R : FST_MEASURED_BEAD_FREQUENCY,
-                      (double[]){hertz * curves[i].x[k], hertz * curves[i].x[k + 1]},
-                      factors[i / 2] * curves[i].y[k], factors[i / 2] * curves[i].y[k + 1], i % 2 == 0);
+            if (curves[i].x[k] != curves[i].x[k + 1] || curves[i].y[k] != curves[i].y[k + 1])
+                add_piece(p, i < 2 ? FST_MEASURED_MEAN_R : FST_MEASURED_BEAD_FREQUENCY,
+                          (double[]){hertz * curves[i].x[k], hertz * curves[i].x[k + 1]},
+                          factors[i / 2] * curves[i].y[k], factors[i / 2] * curves[i].y[k + 1], i % 2 == 0);
     fst_chart_free(owner);
     return status;
 }
@@ -247,9 +260,25 @@ static fst_status take_branch(const char *path, const fst_points *tables, int ta
 
 /* ---------------------------------------------------------------- chi^2 */
 
+static const double ROUNDING =
+    1e-9; /* drives that differ less are one: a sweep may be over omega, or in steps */
+
+static int is_run(const fst_curve_piece *here)
+{
+    return here->x[0] == here->x[1] && here->y[0] == here->y[1];
+}
+
 static int covers(const fst_curve_piece *here, double x)
 {
-    return x >= fmin(here->x[0], here->x[1]) && x <= fmax(here->x[0], here->x[1]) && here->x[0] != here->x[1];
+    const double low = fmin(here->x[0], here->x[1]), high = fmax(here->x[0], here->x[1]);
+    const int run = is_run(here), wide = high - low > 1e3 * ROUNDING * fabs(x); /* else it may be steep */
+    const double off = run || wide ? ROUNDING * fabs(x) : 0.0;
+    return x >= low - off && x <= high + off && (run || low < high);
+}
+
+static double slope_of(const fst_curve_piece *here)
+{
+    return is_run(here) ? 0.0 : (here->y[1] - here->y[0]) / (here->x[1] - here->x[0]);
 }
 
 /* The stable piece at a frequency that is nearest to a value; NULL: there is none. */
@@ -261,7 +290,7 @@ static const fst_curve_piece *nearest_piece(const fst_point_curves *p, int quant
         const fst_curve_piece *here = &p->list[quantity][i];
         if (!here->stable || !covers(here, x))
             continue;
-        const double y = here->y[0] + (x - here->x[0]) / (here->x[1] - here->x[0]) * (here->y[1] - here->y[0]);
+        const double y = here->y[0] + slope_of(here) * (x - here->x[0]);
         if (fabs(y - value) < nearest) {
             best = here;
             nearest = fabs(y - value);
@@ -278,7 +307,7 @@ typedef struct scaled {
 /* The part of one measured number in chi^2: the error of the frequency counts by the curve's slope. */
 static double part_of_chi2(const fst_curve_piece *at, const fst_point *point, int quantity, scaled *by_scale)
 {
-    const double slope = (at->y[1] - at->y[0]) / (at->x[1] - at->x[0]);
+    const double slope = slope_of(at);
     const double y = at->y[0] + slope * (point->frequency - at->x[0]);
     const double along = isfinite(point->frequency_error) ? slope * point->frequency_error : 0.0;
     const double off = point->value[quantity] - y, error = point->error[quantity];
@@ -304,8 +333,14 @@ static void tell_left_out(const fst_point_curves *p, const fst_point *point, int
         high = fmax(high, fmax(here->x[0], here->x[1]));
         unstable = unstable || covers(here, x);
     }
+    const fst_curve_gap *run = NULL;
+    for (size_t i = 0; i < p->gap_count && !run; ++i)
+        run = fabs(p->gaps[i].x - x) <= ROUNDING * fabs(x) ? &p->gaps[i] : NULL;
     char why[96] = "the curve has a gap there";
-    if (low > high)
+    if (run)
+        (void)snprintf(why, sizeof why, "the run there %s%s", run->gap == FST_SWEEP_FAILED ? "" : "is ",
+                       fst_sweep_sign("regime", run->gap).title);
+    else if (low > high)
         (void)snprintf(why, sizeof why, "the file has no curve of it");
     else if (unstable)
         (void)snprintf(why, sizeof why, "all states there are unstable");
@@ -321,6 +356,7 @@ static void tell_left_out(const fst_point_curves *p, const fst_point *point, int
 static void add_chi2(const fst_point_curves *p, const fst_points *points, int quantity, scaled *by_scale,
                      fst_points_fit *fit)
 {
+    int none = 0;
     for (size_t i = 0; i < points->count; ++i) {
         const fst_point *point = &points->rows[i];
         if (isnan(point->value[quantity]))
@@ -330,8 +366,12 @@ static void add_chi2(const fst_point_curves *p, const fst_points *points, int qu
         if (at) {
             ++fit->counted;
             fit->chi2 += part_of_chi2(at, point, quantity, by_scale);
-        } else {
+        } else if (p->is_sweep || p->count[quantity] > 0) {
             tell_left_out(p, point, quantity, fit);
+        } else if (none++ == 0) {
+            const size_t used = strlen(fit->left_out);
+            (void)snprintf(fit->left_out + used, sizeof fit->left_out - used, "a branch has no %s\n",
+                           fst_measured_name((fst_measured)quantity));
         }
     }
 }

@@ -4,7 +4,7 @@
 
 #include <festoon/festoon_tools.h>
 
-/* A straight piece of a curve, of one quantity, in Hz and SI. */
+/* A straight piece of a curve, of one quantity, in Hz and SI; with equal ends a run that no line joins to others. */
 typedef struct fst_curve_piece {
     double x[2], y[2];
     int stable;
@@ -16,11 +16,20 @@ typedef struct fst_curve_special {
     double x, y[FST_MEASURED_COUNT];
 } fst_curve_special;
 
+/* A run of a sweep that is no model: undecided, ejected, failed, ... (fst_sweep_gap()). */
+typedef struct fst_curve_gap {
+    double x;
+    int gap;
+} fst_curve_gap;
+
 typedef struct fst_point_curves {
+    int is_sweep; /* else a branch */
     fst_curve_piece *list[FST_MEASURED_COUNT];
     size_t count[FST_MEASURED_COUNT];
     fst_curve_special *specials;
     size_t special_count;
+    fst_curve_gap *gaps;
+    size_t gap_count;
     double length, gamma; /* m and 1/s: the units of the file's numbers */
     fst_params *scene;    /* NULL: the file does not say */
 } fst_point_curves;

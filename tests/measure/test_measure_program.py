@@ -169,6 +169,61 @@ class Points(Program):
                       self.festoon("plot", other, "--points", points, "-o", self.path("no.svg"), status=2).stderr)
         self.assertFalse(os.path.exists(self.path("no.svg")))
 
+    def test_points_at_runs_that_stand_alone(self):
+        """A run that is alone in its regime is a model, and no line joins it to others; one that is undecided or ejected is
+        none, and stands as a sign at the lower edge."""
+        if not shutil.which("gnuplot"):
+            self.skipTest("no gnuplot")
+        for key, drives, table in (("drive.frequency", "3Hz,8Hz,10.7Hz", (3, 8, 10.7)),
+                                   ("drive.omega", "0.06,0.16,0.215", [312.5 * w / (2 * math.pi) for w in (0.06, 0.16, 0.215)])):
+            base = self.path(f"{key}.db")
+            self.festoon("sweep", "--over", f"{key}={drives}", "--set", "run.periods=200", "--set", "run.discard=100", "-o", base)
+            rows = json.loads(self.festoon("export", base, "--json").stdout)
+            self.assertEqual([row["regime"] for row in rows], ["locked", "librating", "counter-rotating"])
+            lines = [f"{x:.11g},{23 * row['mean_r'] + 0.1!r},0.1" for x, row in zip(table, rows)]
+            points = self.write("alone.csv", "frequency [Hz],mean_r [mm],mean_r_error [mm]\n" + "\n".join(lines) + "\n5,17,1\n")
+            said = self.festoon("plot", base, "--points", points, "-o", self.path("fig.svg")).stderr
+            self.assertIn("chi^2 = 3 of 3 measured numbers (4 in the table)", said)
+            self.assertIn("line 5 (5 Hz), mean_r: the curve has a gap there", said)
+            with open(self.path("fig.dat"), encoding="utf-8") as file:
+                lines = file.read().split("\n\n\n")[0].split("\n")[2:]
+            self.assertEqual([len(line) > 0 for line in lines], [True, False, True, False, True])  # no line between
+            for line, row in zip(lines[::2], rows):
+                self.assertAlmostEqual(float(line.split()[1]), 23 * row["mean_r"], 5)
+
+    def test_signs_below_points(self):
+        """Runs that are no motion, or an undecided one, stand at the lower edge, on a line for each file, and are no model."""
+        if not shutil.which("gnuplot"):
+            self.skipTest("no gnuplot")
+        for name, kappa in (("a.db", "1.2"), ("b.db", "1.1")):
+            self.festoon("sweep", "--set", "run.periods=12", "--set", "run.discard=4", "--set", "start.r=0.7", "--set",
+                         "plate.radius=21.3mm", "--set", f"model.kappa={kappa}", "--over", "drive.frequency=8Hz:22Hz:8", "-o", self.path(name))
+        wanted = [{}, {}]
+        for found, name in zip(wanted, ("a.db", "b.db")):
+            for row in json.loads(self.festoon("export", self.path(name), "--json").stdout):
+                found.setdefault(row["regime"], []).append(row["drive.frequency"])
+        self.assertEqual((wanted[0]["undecided"], wanted[0]["counter-rotating"], 12 in wanted[0]["ejected"], set(wanted[1])),
+                         ([14, 16], [18], True, {"undecided", "ejected"}))
+        points = self.write("p.csv", "frequency [Hz],mean_r [mm],mean_r_error [mm]\n12,20.3,0.1\n14,20.5,0.1\n18,20.7,0.1\n")
+        said = self.festoon("plot", self.path("a.db"), "--points", points, "-o", self.path("fig.svg")).stderr
+        self.assertIn("line 2 (12 Hz), mean_r: the run there is ejected\nline 3 (14 Hz), mean_r: the run there is undecided\n", said)
+        self.assertIn(" of 1 measured numbers (3 in the table)", said)
+        for word in ("undecided", "ejected"):
+            self.assertEqual(self.signs(word), {"panel1": [(x, 0.03) for x in wanted[0][word]]})
+        with open(self.path("fig.gp"), encoding="utf-8") as script:
+            low, high = map(float, re.search(r"set yrange \[(.*?):(.*?)\]", script.read()).groups())
+        self.assertLess(low + 0.059 * (high - low), 20.2)  # the bars of errors are within the panel, above the signs
+        self.assertGreater(high, 20.8)
+        self.festoon("plot", self.path("a.db"), self.path("b.db"), "--points", points, "-o", self.path("fig.svg"))
+        with open(self.path("fig.dat"), encoding="utf-8") as file:
+            drawn = [tuple(map(float, line.split())) for line in file if line[:1].isdigit() and len(line.split()) == 2]
+        for level, found in zip((0.03, 0.07), wanted):
+            self.assertEqual(sorted(x for x, y in drawn if y == level), sorted(found["undecided"] + found["ejected"]))
+        with open(self.path("fig.gp"), encoding="utf-8") as script:
+            script = script.read()
+        self.assertEqual([script.count(f"set label '{said}'") for said in ("undecided", "ejected")], [1, 1])
+        self.assertIn("model.kappa 1.1: χ² = 0 of 0: undecided'", script)
+
     def test_the_paper_in_words_over_a_branch(self):
         """At 7 Hz the branch is unstable alone, which says nothing of a bead; where it passes the axis, at 8.9 Hz, the
         bead's frequency jumps, and no line joins its two ends."""
@@ -265,8 +320,13 @@ class Points(Program):
                                     "10.7,17.63,0.1,1,0.1\n40,20,1,,\n")
         said = self.festoon("plot", branch, "--points", odd, "-o", self.path("fig.svg")).stderr
         self.assertRegex(said, r"odd\.csv over .*branch\.json, left out:\nline 3 \(40 Hz\), mean_r: the curve reaches from [\d.]+ Hz to "
-                               r"[\d.]+ Hz\nline 2 \(10\.7 Hz\), std_r: the file has no curve of it\n")
+                               r"[\d.]+ Hz\na branch has no std_r\n(?!line)")
         self.assertIn("of 1 measured numbers (3 in the table)", said)
+        with open(self.path("fig.gp"), encoding="utf-8") as script:
+            self.assertNotIn("deviation of r", script.read())
+        said = self.festoon("plot", branch, "--points", odd, "--quantity", "std_r", "-o", self.path("no.svg"), status=2).stderr
+        self.assertIn("a branch has none of the measured quantities", said)
+        self.assertFalse(os.path.exists(self.path("no.svg")))
 
 
 class Readings(Program):
