@@ -174,21 +174,22 @@ class Points(Program):
         none, and stands as a sign at the lower edge."""
         if not shutil.which("gnuplot"):
             self.skipTest("no gnuplot")
-        for key, drives, table in (("drive.frequency", "3Hz,8Hz,10.7Hz", (3, 8, 10.7)),
-                                   ("drive.omega", "0.06,0.16,0.215", [312.5 * w / (2 * math.pi) for w in (0.06, 0.16, 0.215)])):
+        for key, drives, table in (("drive.frequency", "3Hz,8Hz,10.7Hz,10.8Hz", (3, 8, 10.7, 10.8)),
+                                   ("drive.omega", "0.06,0.16,0.215,0.217",
+                                    [312.5 * w / (2 * math.pi) for w in (0.06, 0.16, 0.215, 0.217)])):
             base = self.path(f"{key}.db")
             self.festoon("sweep", "--over", f"{key}={drives}", "--set", "run.periods=200", "--set", "run.discard=100", "-o", base)
             rows = json.loads(self.festoon("export", base, "--json").stdout)
-            self.assertEqual([row["regime"] for row in rows], ["locked", "librating", "counter-rotating"])
+            self.assertEqual([row["regime"] for row in rows], ["locked", "librating", "counter-rotating", "counter-rotating"])
             lines = [f"{x:.11g},{23 * row['mean_r'] + 0.1!r},0.1" for x, row in zip(table, rows)]
             points = self.write("alone.csv", "frequency [Hz],mean_r [mm],mean_r_error [mm]\n" + "\n".join(lines) + "\n5,17,1\n")
             said = self.festoon("plot", base, "--points", points, "-o", self.path("fig.svg")).stderr
-            self.assertIn("chi^2 = 3 of 3 measured numbers (4 in the table)", said)
-            self.assertIn("line 5 (5 Hz), mean_r: the curve has a gap there", said)
+            self.assertIn("chi^2 = 4 of 4 measured numbers (5 in the table)", said)
+            self.assertIn("line 6 (5 Hz), mean_r: the curve has a gap there", said)
             with open(self.path("fig.dat"), encoding="utf-8") as file:
                 lines = file.read().split("\n\n\n")[0].split("\n")[2:]
-            self.assertEqual([len(line) > 0 for line in lines], [True, False, True, False, True])  # no line between
-            for line, row in zip(lines[::2], rows):
+            self.assertEqual([len(line) > 0 for line in lines], [True, False, True, False, True, True])  # one line
+            for line, row in zip(filter(None, lines), rows, strict=True):
                 self.assertAlmostEqual(float(line.split()[1]), 23 * row["mean_r"], 5)
 
     def test_signs_below_points(self):
