@@ -34,6 +34,38 @@ class World(Bead):
         """The key that asks for three dimensions."""
         return text_of(lib.fst_key_of_world(self._params))
 
+    def orbit(self, **keywords: Any) -> Any:
+        """The program's: `festoon orbit SCENE --json` finds orbits of a bead in a world.
+
+        Parameters
+        ----------
+        **keywords
+            Those of `Bead.orbit`, of which none is used.
+
+        Raises
+        ------
+        BadInput
+            Always.
+        """
+        raise BadInput("World.orbit", "orbits of a bead in a world are found by the program: festoon orbit SCENE --json")
+
+    def branch(self, **keywords: Any) -> Any:
+        """The program's: `festoon branch SCENE -o FILE.json` follows families of orbits in a world; read() reads the file.
+
+        Parameters
+        ----------
+        **keywords
+            Those of `Bead.branch`, of which none is used.
+
+        Raises
+        ------
+        BadInput
+            Always.
+        """
+        raise BadInput(
+            "World.branch", "branches of a bead in a world are followed by the program: festoon branch SCENE -o FILE.json"
+        )
+
     if TYPE_CHECKING:  # Bead.run() makes it
 
         def run(self, **keywords: Any) -> "WorldRun":  # type: ignore[override]

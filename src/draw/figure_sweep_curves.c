@@ -17,6 +17,7 @@ typedef struct drawing {
     int64_t *chosen; /* which ones */
     int *gaps;       /* what each of them is, a row of `signs`; -1: a motion, or not run */
     size_t failed;   /* points of the slice, drawn or not */
+    int plain;       /* it is laid over others, of which the key says the number of failed points of none */
     int all_gaps;    /* there is no motion among them, an undecided one neither */
     double *x;
     fst_chart_curve *curves;
@@ -127,8 +128,9 @@ static int note_gaps(drawing *d, const fst_sweep_slice *slice, int count)
  * with one too.  0: no memory. */
 static int add_signs(drawing *d, const double *values, int told)
 {
-    char failed[48];
-    (void)snprintf(failed, sizeof failed, "failed: %zu point%s", d->failed, d->failed == 1 ? "" : "s");
+    char failed[48] = "failed";
+    if (!d->plain)
+        (void)snprintf(failed, sizeof failed, "failed: %zu point%s", d->failed, d->failed == 1 ? "" : "s");
     for (int g = 0; g < SIGNS; ++g) {
         double *y = fst_chart_keep(d->chart, (d->points + 1) * sizeof *y);
         fst_chart_curve sign = fst_sweep_sign(fst_sweep_state_key(d->table->grid), g);
@@ -269,6 +271,7 @@ static int dress(drawing *d, const fst_sweep_axis *axis)
 static fst_status fill(drawing *d, const fst_sweep_quantity *quantities, int count,
                        const fst_sweep_slice *slice, int plain)
 {
+    d->plain = plain;
     const size_t step = choose_points(d, slice);
     d->x = fst_chart_keep(d->chart, (d->points + 1) * sizeof *d->x);
     d->curves = fst_chart_keep(d->chart, (size_t)(count * (FST_REGIME_COUNT + SIGNS)) * sizeof *d->curves);

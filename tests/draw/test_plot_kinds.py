@@ -201,7 +201,7 @@ class Series(Case):
                 ("missing", ["--kind", "time", "--quantity", "r,,n_z"]),
                 ("at most 6", ["--kind", "time", "--quantity", "r,B,slip,n_z,n_x,n_y,x"]),
                 ("two columns", ["--kind", "section", "--quantity", "r"]),
-                ("no ramp", ["--kind", "ramp"]),
+                ("not a ramp", ["--kind", "ramp"]),
                 ("colour scale", ["--kind", "radius-field", "--quantity", "slip"]),
                 ("at most 1", ["--quantity", "r,slip"]),
                 ("nearest is section", ["--kind", "secton"]),
