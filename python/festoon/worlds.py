@@ -34,7 +34,7 @@ class World(Bead):
         """The key that asks for three dimensions."""
         return text_of(lib.fst_key_of_world(self._params))
 
-    def orbit(self, **keywords: Any) -> Any:
+    def orbit(self, **keywords: Any) -> None:  # type: ignore[override]
         """The program's: `festoon orbit SCENE --json` finds orbits of a bead in a world.
 
         Parameters
@@ -49,7 +49,7 @@ class World(Bead):
         """
         raise BadInput("World.orbit", "orbits of a bead in a world are found by the program: festoon orbit SCENE --json")
 
-    def branch(self, **keywords: Any) -> Any:
+    def branch(self, **keywords: Any) -> None:  # type: ignore[override]
         """The program's: `festoon branch SCENE -o FILE.json` follows families of orbits in a world; read() reads the file.
 
         Parameters
