@@ -96,10 +96,10 @@ int fst_sweep_gap(const char *state_key, double state, int computed)
 fst_chart_curve fst_sweep_sign(const char *state_key, int gap)
 {
     const fst_sweep_names *names = fst_sweep_names_of(state_key);
+    const int place =
+        fst_name_place(signs[gap].word, names->words); /* -1: rows of this kind have no such state */
     return (fst_chart_curve){.title = signs[gap].word,
-                             .colour = gap == FAILED
-                                           ? FST_COLOUR_BLACK
-                                           : names->colours[fst_name_place(signs[gap].word, names->words)],
+                             .colour = place < 0 ? FST_COLOUR_BLACK : names->colours[place],
                              .style = FST_CURVE_OPEN_POINTS,
                              .right = 1,
                              .sign = signs[gap].sign};
