@@ -30,7 +30,8 @@ PYTHON = {"REGIMES": "runs.REGIMES", "STOPS": "flows.STOPS", "SYMMETRIES": "runs
           "SHOWN": "_quantities.UNITS", "CARRIES": "sweeping.CARRY", "MEASURED_QUANTITIES": "_plot_points._measured()"}
 # Of these the program writes names that Python asks by number.
 NUMBERED = {"UNITS": "fst_unit_name", "ROLLING_ENDS": "fst_rolling_end_name", "MOTIONS": "fst_motion_name", "PAIRINGS": "fst_pairing_name",
-            "ARITHMETICS": "fst_arithmetic_name", "COLOURS": "fst_colour_code", "DYNAMICS": "fst_dynamics_name"}
+            "ARITHMETICS": "fst_arithmetic_name", "COLOURS": "fst_colour_code", "DYNAMICS": "fst_dynamics_name",
+            "NOISE_VERDICTS": "fst_noise_verdict_name"}
 
 
 def with_dummies(text):
