@@ -147,6 +147,9 @@ fst_status check_outputs(const arguments *given, fst_error *error);
 /* The same for one file that is read because another one names it. */
 fst_status check_outputs_spare(const arguments *given, const char *read, fst_error *error);
 
+/* The same of one file, whose name follows from an option. */
+fst_status check_spared(const char *where, const char *path, const char *read, fst_error *error);
+
 /* Whether a file's name has this ending, and more before it. */
 int ends_in(const char *path, const char *ending);
 

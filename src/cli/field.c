@@ -275,17 +275,34 @@ static fst_status write_map(const arguments *given, const fst_params *params, do
 }
 
 /* --draws: FILE-1.csv and so on beside FILE.csv, each a map over which runs show what the noise does to them. */
-static fst_status write_draws(const arguments *given, fst_params *params, double height, const char *path,
-                              const fst_field_map *smooth, fst_error *error)
+static void name_draw(const char *path, int draw, char name[SHOWN_SIZE])
 {
-    const size_t length = strlen(path), ending = length > 4 && strcmp(path + length - 4, ".csv") == 0 ? 4 : 0;
-    double draws = 0.0;
+    const size_t length = strlen(path), ending = ends_in(path, ".csv") ? 4 : 0;
+    (void)snprintf(name, SHOWN_SIZE, "%.*s-%d.csv", (int)(length - ending), path, draw);
+}
+
+/* How many they are.  None of them may replace the measured map. */
+static fst_status read_draws(const arguments *given, const fst_params *params, const char *path, double *draws,
+                             fst_error *error)
+{
     char name[SHOWN_SIZE];
-    const value_option row = {"draws", VALUE_WHOLE, &draws, 1, 10000};
+    const value_option row = {"draws", VALUE_WHOLE, draws, 1, 10000};
     fst_status status = read_values(given, &row, 1, error);
+    for (int i = 1; i <= *draws && status == FST_OK; ++i) {
+        name_draw(path, i, name);
+        status = check_spared("--draws", name, params->magnet_file, error);
+    }
+    return status;
+}
+
+static fst_status write_draws(const arguments *given, fst_params *params, double height, const char *path,
+                              double draws, const fst_field_map *smooth, fst_error *error)
+{
+    char name[SHOWN_SIZE];
+    fst_status status = FST_OK;
     for (int i = 1; i <= draws && status == FST_OK; ++i) {
         fst_field_map *drawn = NULL;
-        (void)snprintf(name, sizeof name, "%.*s-%d.csv", (int)(length - ending), path, i);
+        name_draw(path, i, name);
         status = fst_field_map_draw(smooth, (uint64_t)i, NULL, &drawn, error);
         params->magnet_map = drawn;
         if (status == FST_OK)
@@ -371,6 +388,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     const char *csv = option_value(given, "csv");
     fst_shown_units units = FST_SHOWN_SCALED;
     int quantity = FST_FIELD_STRENGTH;
+    double draws = 0.0;
     fst_field_options map = fst_default_field_options();
     fst_status status = check_asked(given, at, figure, csv, error);
     if (status == FST_OK)
@@ -381,6 +399,8 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     map.quantity = (fst_field_quantity)quantity;
     if (status == FST_OK)
         status = read_scene(given, operand(given), &params, error);
+    if (status == FST_OK && option_value(given, "draws"))
+        status = read_draws(given, &params, csv, &draws, error);
     if (status == FST_OK)
         status = read_height(option_value(given, "height"), &params, &map.height, error);
     if (status == FST_OK && option_value(given, "smooth"))
@@ -402,8 +422,8 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         tell_written(figure, "");
     if (status == FST_OK && csv)
         status = write_map(given, &params, map.height, csv, error);
-    if (status == FST_OK && option_value(given, "draws"))
-        status = write_draws(given, &params, map.height, csv, smooth, error);
+    if (status == FST_OK)
+        status = write_draws(given, &params, map.height, csv, draws, smooth, error);
     fst_field_map_free(smooth);
     return status;
 }

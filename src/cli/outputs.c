@@ -4,6 +4,8 @@
 
 #include "cli/command.h"
 
+#define LOST "%.200s is %s, and would be lost: choose another name"
+
 static int is_output(const given_option *one)
 {
     static const char *const names[] = {"output", "csv", "overlay", "figure"};
@@ -24,8 +26,7 @@ static fst_status refuse(const given_option *one, const char *what, fst_error *e
 {
     char where[32];
     (void)snprintf(where, sizeof where, one->row->letter == 'o' ? "-o" : "--%s", one->row->name);
-    return fail(error, FST_BAD_INPUT, where, "%.200s is %s, and would be lost: choose another name", one->value,
-                what);
+    return fail(error, FST_BAD_INPUT, where, LOST, one->value, what);
 }
 
 fst_status check_outputs_spare(const arguments *given, const char *read, fst_error *error)
@@ -34,6 +35,11 @@ fst_status check_outputs_spare(const arguments *given, const char *read, fst_err
         if (is_output(&given->options[i]) && is_same_file(given->options[i].value, read))
             return refuse(&given->options[i], "read", error);
     return FST_OK;
+}
+
+fst_status check_spared(const char *where, const char *path, const char *read, fst_error *error)
+{
+    return is_same_file(path, read) ? fail(error, FST_BAD_INPUT, where, LOST, path, "read") : FST_OK;
 }
 
 fst_status check_outputs(const arguments *given, fst_error *error)

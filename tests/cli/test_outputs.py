@@ -69,6 +69,15 @@ class Outputs(unittest.TestCase):
             self.good("field", "scene.yaml", *MAP, "--csv", "other.csv")
 
     @unittest.skipUnless(shutil.which("gnuplot"), "no gnuplot")
+    def test_a_map_is_not_replaced_by_a_drawn_one(self):
+        shutil.copy(self.folder / "map.csv", self.folder / "drawn-2.csv")
+        (self.folder / "drawn.yaml").write_text("magnet:\n  shape: grid\n  file: drawn-2.csv\n", encoding="utf-8")
+        done = self.run_festoon("field", "drawn.yaml", "--smooth", *MAP, "--csv", "drawn.csv", "--draws", "3")
+        self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+        self.assertIn("--draws: drawn-2.csv is read, and would be lost", done.stderr)
+        self.assertEqual((self.folder / "drawn-2.csv").read_bytes(), (self.folder / "map.csv").read_bytes())
+        self.assertEqual(sorted(path.name for path in self.folder.glob("drawn*")), ["drawn-2.csv", "drawn.yaml"])
+
     def test_points_are_kept(self):
         done = self.run_festoon("plot", "branch.json", "--points", "points.csv", "-o", "branch.json")
         self.assertEqual(done.returncode, 2, done.stderr)
