@@ -30,13 +30,14 @@ from .beads import Beads
 from .beads_orbits import BeadsBranch, BeadsLocked, BeadsOrbit
 from .beads_runs import BeadsRun, WorldRun
 from .beads_trajectories import BeadsTrajectory
-from .bead import Bead, Groups, MaterialWarning
+from .bead import Bead, MaterialWarning
 from .branches import Branch
 from .critical import Critical
 from .files import export, merge, paper, read, schema
 from .films import track
 from .flows import Flow
 from .fitting import Fit, fit
+from .groups import Groups
 from .measuring import Measurement, Track, measure, read_track, save_points
 from .orbits import Locked, LockedStates, Lyapunov, Orbit
 from .runs import Run

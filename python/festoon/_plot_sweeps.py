@@ -6,10 +6,11 @@ import numpy as np
 
 from . import _style
 from ._errors import BadInput
+from ._keys import row_of
 from ._native import call, ffi, lib, text_of
 from ._quantities import units_of
 from ._tables import RESULTS
-from .bead import Bead, row_of
+from .bead import Bead
 from .orbits import _choose
 from .runs import REGIMES
 

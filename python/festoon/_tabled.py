@@ -120,7 +120,7 @@ class Tabled:
         Parameters
         ----------
         units
-            "scaled", "lab" or "si"; by default those that the numbers of this result have.
+            "scaled", "lab" or "si"; the default is the unit system of this result's own attributes.
 
         Returns
         -------
@@ -140,7 +140,7 @@ class Tabled:
         Parameters
         ----------
         units
-            "scaled", "lab" or "si"; by default those that the numbers of this result have.
+            "scaled", "lab" or "si"; the default is the unit system of this result's own attributes.
 
         Returns
         -------

@@ -4,15 +4,17 @@ import itertools
 import math
 import os
 import warnings
-from typing import TYPE_CHECKING, Any, Dict, FrozenSet, Iterable, Iterator, List, Mapping, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, FrozenSet, Iterable, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 
 from ._errors import BadInput
+from ._keys import keyword_of, known_key
 from ._native import Watch, call, ffi, lib, path_bytes, rows_of, take_text, text_of
 from ._progress import Progress
 from ._quantities import UNSET, value_text
 from ._tables import PARAMETERS, SHORT, Parameters
+from .groups import Groups
 
 if TYPE_CHECKING:
     from .branches import Branch
@@ -27,44 +29,8 @@ if TYPE_CHECKING:
 Path = Union[str, "os.PathLike[str]"]
 
 
-def row_of(key: str) -> Tuple[str, str, str]:
-    """Kind (float, int or str), unit (or names of a choice) and doc of a key, of a magnet's part too."""
-    if key in PARAMETERS:
-        return PARAMETERS[key]
-    row = lib.fst_param_at(lib.fst_param_find(key.encode()))
-    if row.kind == lib.FST_KIND_CHOICE:
-        return "str", text_of(row.names).replace("|", ", "), text_of(row.doc)
-    return "int" if row.kind == lib.FST_KIND_INT else "float", text_of(lib.fst_unit_name(row.unit)), text_of(row.doc)
-
-
 class MaterialWarning(UserWarning):
     """Mass, radius and magnetic strength of a bead contradict any material."""
-
-
-def key_of(keyword: str) -> str:
-    """The key of a keyword: frequency is drive.frequency, friction__law is friction.law."""
-    return SHORT.get(keyword, keyword.replace("__", "."))
-
-
-def known_key(keyword: str) -> str:
-    """The key of a keyword; one without a group is a short one, or wrong: the nearest keyword is named."""
-    key = key_of(keyword)
-    if "." in key or key == "coils":
-        return key  # the library looks at it
-    names = {of.split(".")[1]: keyword_of(of) for of in reversed(PARAMETERS)}
-    names.update({keyword_of(of): keyword_of(of) for of in PARAMETERS})
-    nearest = ffi.new("char[]", 64)
-    lib.fst_nearest_name(keyword.encode(), "|".join(names).encode(), nearest, 64)
-    found = names[text_of(nearest)]
-    raise BadInput(keyword, f'unknown keyword "{keyword}"; the nearest is {found} (festoon.schema() lists them all)')
-
-
-def keyword_of(key: str) -> str:
-    """The keyword of a key, the short one where there is one."""
-    for short, of in SHORT.items():
-        if of == key:
-            return short
-    return key.replace(".", "__")
 
 
 def _fitting(file: bytes) -> bytes:
@@ -73,44 +39,6 @@ def _fitting(file: bytes) -> bytes:
     if len(file) >= size:
         raise BadInput("magnet.file", f"the path of the map has more than {size - 1} bytes: move the file")
     return file
-
-
-class Groups:
-    """The scaled groups on which the motion depends, and the units behind them (``lambda`` is ``lambda_``)."""
-
-    def __init__(self, groups: Any) -> None:
-        names = {
-            "shape": [text.strip() for text in PARAMETERS["magnet.shape"][1].split(",")],
-            "material": [text.strip() for text in PARAMETERS["bead.material"][1].split(",")],
-            "friction": [text.strip() for text in PARAMETERS["friction.law"][1].split(",")],
-            "dynamics": [text.strip() for text in PARAMETERS["model.dynamics"][1].split(",")],
-        }
-        self._values: Dict[str, Any] = {}
-        for name, field in ffi.typeof("fst_groups").fields:
-            value = getattr(groups, name)
-            if name in names:
-                value = names[name][int(value)]
-            self._values["lambda_" if name == "lambda" else name] = value
-
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("__") or name not in self.__dict__.get("_values", {}):
-            raise AttributeError(name)
-        return self._values[name]
-
-    def __dir__(self) -> List[str]:
-        return [*super().__dir__(), *self._values]
-
-    def __iter__(self) -> Iterator[Tuple[str, Any]]:
-        return iter(self._values.items())
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Groups) and repr(self) == repr(other)
-
-    def __hash__(self) -> int:
-        return hash(repr(self))
-
-    def __repr__(self) -> str:
-        return "Groups(" + ", ".join(f"{name}={value!r}" for name, value in self) + ")"
 
 
 class Bead(Parameters):

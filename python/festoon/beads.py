@@ -5,10 +5,11 @@ from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, List, Mapping, 
 import numpy as np
 
 from ._errors import BadInput
+from ._keys import key_of, keyword_of
 from ._native import call, ffi, lib, text_of
 from ._progress import Progress
 from ._quantities import value_text
-from .bead import Bead, Path, key_of, keyword_of
+from .bead import Bead, Path
 
 if TYPE_CHECKING:
     from .beads_orbits import BeadsBranch, BeadsLocked, BeadsOrbit

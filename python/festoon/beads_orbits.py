@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Tuple
 import numpy as np
 
 from ._errors import BadInput
+from ._keys import known_key, row_of
 from ._native import Watch, ffi, lent, lib, options_of, take_text
 from ._pickled import Printed
 from ._progress import Progress
 from ._tabled import NUMBERS, Column, Shown, Table, about, numbers_of, scaled_columns, scales_of
-from .bead import known_key, row_of
 from .branches import range_of
 
 if TYPE_CHECKING:

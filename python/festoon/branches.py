@@ -7,6 +7,7 @@ from typing import Any, Dict, Iterator, List, Mapping, Optional, Tuple
 import numpy as np
 
 from ._errors import BadInput
+from ._keys import keyword_of, known_key, row_of
 from ._native import (
     Watch,
     call,
@@ -26,7 +27,7 @@ from ._pickled import Told, image_of, struct_of
 from ._progress import Progress
 from ._quantities import Scales, quantity
 from ._tabled import OF_PLATE, NUMBERS, Column, Shown, Table, about, numbers_of, scaled_columns
-from .bead import Bead, keyword_of, known_key, row_of
+from .bead import Bead
 from .orbits import Path, _choose, _names, _Single
 from .runs import SYMMETRIES
 

@@ -5,11 +5,12 @@ from typing import Any, Dict, NamedTuple, Optional, Tuple
 
 import numpy as np
 
+from ._keys import row_of
 from ._native import Watch, ffi, lib, take_text
 from ._pickled import Told
 from ._progress import Progress
 from ._tabled import Column, Table, Tabled, about, own_units
-from .bead import Bead, row_of
+from .bead import Bead
 
 
 class Stretch(NamedTuple):

@@ -8,12 +8,13 @@ import numpy as np
 
 from ._errors import BadInput
 from ._given import as_file, is_path
+from ._keys import key_of, known_key
 from ._native import Watch, call, ffi, lent, lib, options_of, path_bytes, strings, take_text, text_of
 from ._pickled import Told, image_of, same, struct_of
 from ._progress import Progress
 from ._quantities import quantity
 from ._tabled import Column, Table, Tabled, about, own_units
-from .bead import Bead, key_of, known_key
+from .bead import Bead
 from .measuring import Measurement, Path, Track, _points_measured, _seconds, read_track
 
 

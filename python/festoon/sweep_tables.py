@@ -5,11 +5,12 @@ from typing import Any, Dict, List, Optional, Tuple
 import numpy as np
 
 from ._errors import BadInput
+from ._keys import keyword_of, row_of
 from ._native import lent, lib, text_of
 from ._pickled import Told
 from ._quantities import Scales
 from ._tabled import NUMBERS, Column, Table, Tabled, about, numbers_of, scaled_columns
-from .bead import Bead, keyword_of, row_of
+from .bead import Bead
 
 
 class Axis:

@@ -8,10 +8,11 @@ from typing import Any, Dict, List, Optional, Tuple
 import numpy as np
 
 from ._errors import BadInput, OutOfMemory
+from ._keys import known_key
 from ._native import Watch, ffi, lib, options_of, path_bytes, places_of, strings
 from ._progress import Progress
 from ._quantities import value_text
-from .bead import Bead, known_key
+from .bead import Bead
 from .sweeps import Path, Sweep, grid_of, read_sweep, sweep_of
 
 CARRY: Dict[Optional[str], int] = dict([(None, lib.FST_CARRY_NO), *places_of(lib.pyf_carries).items()])

@@ -9,10 +9,11 @@ from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
 import numpy as np
 
 from ._errors import BadInput, FestoonError, Interrupted, OutOfMemory
+from ._keys import key_of
 from ._native import Watch, call, dtype_of, exception_of, ffi, lent, lib, owned_array, path_bytes, strings, text_of
 from ._tabled import Column, Table, Tabled, about, scaled_columns
 from ._tables import RESULTS, SweepNumbers
-from .bead import Bead, key_of
+from .bead import Bead
 from .runs import REGIMES, SYMMETRIES, Run
 from .sweep_tables import Axis, SweepTable, coords_of, scales_over, sizes_of
 
