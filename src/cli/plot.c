@@ -30,8 +30,7 @@ static const option options[] = {
     {"zoom", '\0', "X0,X1,Y0,Y1", "the part of the plate shown, in mm"},
     {"points", '\0', "DATA.csv",
      "of sweeps and branches over the drive: lay measured points with errors over them, and tell chi^2, of all "
-     "or of "
-     "--quantity (mean_r, std_r, bead_frequency); again for more tables"},
+     "or of --quantity (mean_r, std_r, bead_frequency); again for more tables"},
     {"runs", EXPERT, "FILE", "lay runs over a branch as dots, from documents of festoon run --json"},
     {NULL, '\0', NULL, NULL},
 };

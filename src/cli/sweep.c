@@ -137,8 +137,8 @@ static void warn_once(display *shown, int rank)
     if (shown->idle[0] && rank == 0)
         (void)fprintf(
             stderr,
-            "festoon: all points along %s have one motion, but for its units: the scaled numbers on which "
-            "that depends are given otherwise (festoon check tells model.kappa and the others)\n",
+            "festoon: along %s only units change: the motion depends on scaled numbers, which other keys fix "
+            "(festoon check prints model.kappa and the others)\n",
             shown->idle);
     shown->to_warn = 0;
     shown->idle[0] = '\0';

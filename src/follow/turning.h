@@ -61,7 +61,7 @@ typedef struct follow_turning {
     double (*slopes)[2][2];     /* of `even` and `marked` at each point: to the right and up, in radii */
     double (*light)[2];         /* and `even` and `marked` of each point */
     double view[3][3];          /* the mean of all */
-    follow_sphere sphere, rest; /* what was learnt of the surface, and what it leaves of the faces */
+    follow_sphere sphere, rest; /* the surface; how much the faces still differ from it */
 } follow_turning;
 
 /* Prepare for a bead that is so many pixels wide.  FST_NO_MEMORY.  End it after a failure too. */

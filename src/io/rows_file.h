@@ -11,7 +11,7 @@ typedef struct fst_rows_file {
     fst_hdf5_writer *writer; /* NULL: CSV, written to whole.stream */
     const fst_hdf5_module_table *module;
     int count;
-    double *values;     /* of the next row, in scaled units; written in those that the file was opened with */
+    double *values;     /* of the next row, scaled; the file has them times `factors` */
     double *factors;    /* NULL: scaled units */
     const char **units; /* likewise */
 } fst_rows_file;

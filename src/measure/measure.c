@@ -146,7 +146,7 @@ static void widen_for_exposure(const measure_work *work, const measure_drive *dr
     measured->mean_r_error = hypot(measured->mean_r_error, apart * bends * measured->mean_r);
 }
 
-/* How many frames a time of exposure is no file without a clock tells. */
+/* Without a clock nobody knows how many frames an exposure lasts, so that its blur stays in the numbers. */
 static void forget_blurred(fst_measurement *measured)
 {
     measure_warn(measured, "the exposure cannot be undone without a clock: give the frame rate");

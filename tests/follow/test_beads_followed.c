@@ -59,8 +59,8 @@ static double covered_at(double (*places)[2], int count, int column, int row)
     return covered;
 }
 
-/* Noise of one gray level: each picture begins elsewhere in a store of it, because making it takes longer than
- * following the beads. */
+/* Noise of one gray level.  Making it takes longer than following the beads, so there is one store of it, and each
+ * picture takes another stretch. */
 static const float *noise_of_picture(void)
 {
     enum { STORE = 1 << 20 };

@@ -83,7 +83,7 @@ class Material(unittest.TestCase):
                 if "no effect" in err:
                     continue
                 self.assertEqual(status, 0, err)
-                told = [line.split("along ")[1].split(" have")[0] for line in err.splitlines() if "have one motion" in line]
+                told = [line.split("along ")[1].split(" only")[0] for line in err.splitlines() if "only units change" in line]
                 self.assertEqual(told, [idle] if idle else [], (axes, err))
                 rows = list(csv.reader(festoon("export", str(path), "--csv")[1].splitlines()))
                 results = [row[rows[0].index("mean_r"):rows[0].index("mean_nz")] for row in rows[1:]]

@@ -131,6 +131,34 @@ static void test_chaos_that_seems_to_drift(void **unused)
     }
 }
 
+/* What chaos does in one block it may go on with in the next: blocks that come in equal pairs are half as many. */
+static void test_chaos_that_goes_on(void **unused)
+{
+    (void)unused;
+    enum { PAIRS = 8 };
+    static const double pairs[PAIRS] = {1, -1, 0.4, -0.4, -0.9, 0.9, 0.6, -0.6};
+    const fst_params p = fst_default_params();
+    by_hand *b = begin();
+    fst_run_result r;
+    double sum2 = 0.0;
+    for (int i = BLOCKS + 1; i <= 2 * PAIRS; ++i) {
+        fst_mark mark = {.omega = 0.31};
+        mark.t.high = 100.0 + SPAN * i;
+        fst_marks_offer(&b->marks, &mark);
+    }
+    for (int i = 0; i < 2 * PAIRS; ++i) {
+        b->marks.kept[i + 1].integrals[FST_Q_R] =
+            b->marks.kept[i].integrals[FST_Q_R] + SPAN * 1e-3 * pairs[i / 2];
+        sum2 += 0.5e-6 * pairs[i / 2] * pairs[i / 2]; /* their sum is 0 */
+    }
+    b->marks.latest = b->marks.kept[2 * PAIRS];
+    fst_result_clear(&r);
+    fst_means_of_chaos(&b->run.window, &b->marks, &p, &r);
+    CHECK_CLOSE(r.mean_r_error, 2.0 * sqrt(sum2 / (PAIRS - 1) / PAIRS), 1e-12);
+    fst_watched_run_free(&b->run);
+    test_free(b);
+}
+
 /* Such a motion has these errors, and no other one: a run of a few periods, chaotic by the exponent that it is told. */
 static void test_halves_of_chaos(void **unused)
 {
@@ -373,6 +401,7 @@ int main(void)
         cmocka_unit_test(test_errors_from_the_scatter_of_blocks),
         cmocka_unit_test(test_errors_of_halves),
         cmocka_unit_test(test_chaos_that_seems_to_drift),
+        cmocka_unit_test(test_chaos_that_goes_on),
         cmocka_unit_test(test_halves_of_chaos),
         cmocka_unit_test(test_errors_of_an_approach),
         cmocka_unit_test(test_errors_of_marks_that_differ),
