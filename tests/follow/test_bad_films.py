@@ -27,7 +27,7 @@ class BadFilms(films.OnFilms):
         super().setUpClass()
         cls.good = cls.folder / "good.mp4"
         films.film(cls.path, cls.good, "--size", "480x360", "--noise", "1", "--quality", "0", "--readout", "0ms",
-                   "--to", "2")
+                   "--to", "1.5")
 
     def shaken(self, size):
         """The film by a camera that moves by so many pixels (rms, in both directions), to a quarter of a pixel."""
@@ -69,7 +69,7 @@ class BadFilms(films.OnFilms):
             self.assertNotIn("camera  ", done.stdout)
             self.assertNotIn("gray levels of 255 only", done.stderr)
         films.film(self.path, self.folder / "lamps.mp4", "--size", "480x360", "--flicker", "0.3", "--uneven", "0.5",
-                   "--noise", "6", "--to", "2")
+                   "--noise", "6", "--to", "1.5")
         self.assertNotIn("camera  ", self.track(self.folder / "lamps.mp4")[1].stdout)
 
     def test_a_ring_within_a_faint_edge(self):
