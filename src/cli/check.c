@@ -33,25 +33,6 @@ static void print_map(FILE *out, const fst_field_map *map)
                   1e3 * facts.spacing[1], 1e3 * facts.radius, 1e3 * facts.greatest, facts.curl);
 }
 
-/* Two bodies are not in one place; but a part with the opposite remanence makes a hole in another. */
-static void warn_of_parts(const fst_params *p)
-{
-    for (int a = 0; a < p->magnet_part_count; ++a)
-        for (int b = a + 1; b < p->magnet_part_count; ++b) {
-            const fst_part_shape one = fst_part_seen(&p->magnet_parts[a]),
-                                 other = fst_part_seen(&p->magnet_parts[b]);
-            const double *m = one.magnetisation, *n = other.magnetisation;
-            const int hole =
-                hypot(hypot(m[0] + n[0], m[1] + n[1]), m[2] + n[2]) < 1e-6 * hypot(hypot(m[0], m[1]), m[2]);
-            if (!hole && fst_parts_overlap(&p->magnet_parts[a], &p->magnet_parts[b]))
-                (void)fprintf(
-                    stderr,
-                    "festoon: warning: magnet.parts[%d] and magnet.parts[%d] overlap: where both are their "
-                    "magnetisations add\n",
-                    a, b);
-        }
-}
-
 fst_status check_world(const fst_params *scene, fst_error *error)
 {
     fst_beads_result result = {.count = 0};
@@ -89,11 +70,12 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     fst_params params;
     fst_model *model = NULL;
     double state[FST_STATE_SIZE];
+    char sentence[192];
     fst_status status = read_scene(given, operand(given), &params, error);
     if (status == FST_OK)
         status = fst_field_model_new(&params, NAN, &model, error);
-    if (status == FST_OK && params.magnet_shape == FST_MAGNET_PARTS)
-        warn_of_parts(&params);
+    if (status == FST_OK && fst_parts_contradiction(&params, sentence, sizeof sentence))
+        (void)fprintf(stderr, "festoon: warning: %s\n", sentence);
     if (status == FST_OK && (params.bead_count || fst_key_of_world(&params))) {
         fst_model_free(model);
         return check_beads(given, &params, out, error);

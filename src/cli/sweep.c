@@ -120,92 +120,39 @@ static fst_status read_sweep(const arguments *given, const char **axes, char key
 /* What the progress line shows while the sweep is at work. */
 typedef struct display {
     progress_line line;
-    int refined;              /* how many points there will be is an estimate until the end */
-    double told;              /* the greatest part that was shown as done */
-    fst_sweep_counts counts;  /* the library keeps them up to date */
-    fst_params contradiction; /* a point whose bead cannot be made of any material */
-    int to_warn;
-    char idle[160]; /* keys that are varied in vain; "": none */
-    int can_draw;   /* it varies so few parameters that festoon plot shows it */
+    int refined;             /* how many points there will be is an estimate until the end */
+    double told;             /* the greatest part that was shown as done */
+    fst_sweep_counts counts; /* the library keeps them up to date */
+    char material[512];      /* why a bead cannot be made of any material; "": each can */
+    char idle[256];          /* which keys are varied in vain; "": none */
+    int can_draw;            /* it varies so few parameters that festoon plot shows it */
 } display;
 
 /* Warn once; of several ranks only rank 0 does. */
 static void warn_once(display *shown, int rank)
 {
-    if (shown->to_warn && rank == 0)
-        warn_of_material(&shown->contradiction);
+    if (shown->material[0] && rank == 0)
+        (void)fprintf(stderr, "festoon: warning: %s\n", shown->material);
     if (shown->idle[0] && rank == 0)
-        (void)fprintf(
-            stderr,
-            "festoon: along %s only units change: the motion depends on scaled numbers, which other keys fix "
-            "(festoon check prints model.kappa and the others)\n",
-            shown->idle);
-    shown->to_warn = 0;
+        (void)fprintf(stderr, "festoon: %s (festoon check prints model.kappa and the others)\n", shown->idle);
+    shown->material[0] = '\0';
     shown->idle[0] = '\0';
-}
-
-/* Whether beads with these parameters, which differ in a key of the bead or of the magnet, move alike but for units: from one
- * start, with the same rates at any other state, and the same load and edge. */
-static int same_motion(const fst_params both[2])
-{
-    static const double any[FST_STATE_SIZE] = {0.3, 0.5, 0.02, -0.01, 0.6, 0.0, 0.8, 0.1, -0.2, 0.05};
-    double numbers[2][2 * FST_STATE_SIZE + 2];
-    int made = 0;
-    for (int i = 0; i < 2; ++i) {
-        fst_model *model;
-        if (both[i].bead_count || fst_key_of_world(&both[i]) || fst_model_new(&both[i], &model, NULL) != FST_OK)
-            continue;
-        const fst_groups g = fst_model_groups(model);
-        made += fst_start_state(&both[i], model, numbers[i], NULL) == FST_OK;
-        fst_rhs(model, any, numbers[i] + FST_STATE_SIZE);
-        numbers[i][2 * FST_STATE_SIZE] = g.gravity;
-        numbers[i][2 * FST_STATE_SIZE + 1] = g.plate_radius;
-        fst_model_free(model);
-    }
-    return made == 2 && memcmp(numbers[0], numbers[1], sizeof *numbers) == 0;
-}
-
-/* Whether an axis changes nothing but units: seen from the first point and from the last one. */
-static int is_idle(const fst_grid *grid, int axis)
-{
-    const char *key = fst_grid_key(grid, axis);
-    const int64_t count = fst_grid_axis_points(grid, axis), stride = fst_grid_axis_stride(grid, axis);
-    const int64_t corners[2] = {0, fst_grid_points(grid) - 1}, others[3] = {0, 1, count - 1};
-    int alike = count > 1 && (strncmp(key, "bead.", 5) == 0 || strncmp(key, "magnet.", 7) == 0);
-    for (int k = 0; k < 6 && alike; ++k) {
-        const int64_t corner = corners[k / 3],
-                      moved = corner + (others[k % 3] - corner / stride % count) * stride;
-        fst_params both[2];
-        alike = fst_grid_params(grid, corner, &both[0], NULL) == FST_OK &&
-                fst_grid_params(grid, moved, &both[1], NULL) == FST_OK && same_motion(both);
-    }
-    return alike;
 }
 
 /* Look over the grid: for a contradiction, of which one warning is enough, and whether a figure can show it. */
 static fst_status look_over(display *shown, const fst_params *params, const fst_sweep_options *sweep,
                             fst_error *error)
 {
-    enum { LOOKS = 255 };
-    char sentence[512];
     int64_t varied = 0, stride = 0;
     fst_grid *grid = NULL;
-    fst_error ignored;
     const fst_status status = fst_grid_new(params, sweep->axes, sweep->axis_count, sweep->seed, &grid, error);
     if (status != FST_OK)
         return status == FST_NO_MEMORY ? status : FST_OK; /* the sweep itself will say why */
-    const int64_t last = fst_grid_points(grid) - 1, looks = last < LOOKS ? last : LOOKS;
-    for (int64_t i = 0; i <= looks && !shown->to_warn; ++i)
-        shown->to_warn = fst_grid_params(grid, looks > 0 ? i * last / looks : 0, &shown->contradiction,
-                                         &ignored) == FST_OK &&
-                         fst_bead_contradiction(&shown->contradiction, sentence, sizeof sentence) != 0;
+    if (!fst_grid_contradiction(grid, shown->material, sizeof shown->material))
+        shown->material[0] = '\0';
+    if (!sweep->levitation)
+        (void)fst_grid_idle_axes(grid, shown->idle, sizeof shown->idle);
     shown->can_draw = params->bead_count == 0;
-    for (int a = 0; a < fst_grid_axis_count(grid) && !sweep->levitation; ++a)
-        if (is_idle(grid, a)) {
-            const size_t used = strlen(shown->idle);
-            (void)snprintf(shown->idle + used, sizeof shown->idle - used, "%s%s", used ? " and " : "",
-                           fst_grid_key(grid, a));
-        }
     for (int a = 0; a < fst_grid_axis_count(grid); ++a)
         if (fst_grid_axis_points(grid, a) > 1) {
             varied += 1;

@@ -1,5 +1,6 @@
 /* part_geometry.c - where the parts of a magnet are: as an outline seen from above, and beside a place. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -205,6 +206,31 @@ int fst_parts_overlap(const fst_magnet_part *one, const fst_magnet_part *other)
             return 1;
     }
     return 0;
+}
+
+/* Whether two bodies are in one place, and the second is no hole in the first. */
+static int contradict(const fst_magnet_part *one, const fst_magnet_part *other)
+{
+    const fst_part_shape seen = fst_part_seen(one), its = fst_part_seen(other);
+    const double *m = seen.magnetisation, *n = its.magnetisation;
+    return hypot(hypot(m[0] + n[0], m[1] + n[1]), m[2] + n[2]) >= 1e-6 * hypot(hypot(m[0], m[1]), m[2]) &&
+           fst_parts_overlap(one, other);
+}
+
+int fst_parts_contradiction(const fst_params *params, char *sentence, size_t size)
+{
+    char text[192] = "";
+    int pairs = 0;
+    for (int a = 0; a < params->magnet_part_count && params->magnet_shape == FST_MAGNET_PARTS; ++a)
+        for (int b = a + 1; b < params->magnet_part_count; ++b)
+            if (contradict(&params->magnet_parts[a], &params->magnet_parts[b]) && ++pairs == 1)
+                (void)snprintf(text, sizeof text, "magnet.parts[%d] and magnet.parts[%d] overlap", a, b);
+    if (pairs > 1)
+        (void)snprintf(text + strlen(text), sizeof text - strlen(text), " (as %d other pair%s)", pairs - 1,
+                       pairs > 2 ? "s do" : " does");
+    if (pairs)
+        (void)snprintf(sentence, size, "%s: where both are their magnetisations add", text);
+    return pairs > 0;
 }
 
 int fst_part_touched(const fst_params *params, const double place[3], double radius)

@@ -1,6 +1,6 @@
 """A warning names a bead whose mass and radius contradict any material, in words and in the JSON of `check`.
 
-tests: model/material.c model/bare_number.c cli/check.c cli/sweep.c
+tests: model/material.c model/bare_number.c study/grid_doubts.c cli/check.c cli/sweep.c
 labels: numbers"""
 
 import csv
