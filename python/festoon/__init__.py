@@ -15,10 +15,12 @@ from ._errors import (
     FestoonError,
     InputOutput,
     Interrupted,
+    MaterialWarning,
     MissingFile,
     NoConvergence,
     NotFinite,
     OutOfMemory,
+    SceneWarning,
     StepUnderflow,
     Unavailable,
 )
@@ -27,10 +29,10 @@ from ._native import lib as _lib
 from ._native import text_of as _text_of
 from ._quantities import UNSET
 from .beads import Beads
-from .beads_orbits import BeadsBranch, BeadsLocked, BeadsOrbit
+from .beads_orbits import BeadsBranch, BeadsLocked, BeadsOrbit, FloatingStates, WorldOrbit
 from .beads_runs import BeadsRun, WorldRun
 from .beads_trajectories import BeadsTrajectory
-from .bead import Bead, MaterialWarning
+from .bead import Bead
 from .branches import Branch
 from .critical import Critical
 from .files import export, merge, paper, read, schema
@@ -76,6 +78,7 @@ __all__ = [
     "Critical",
     "FestoonError",
     "Fit",
+    "FloatingStates",
     "Flow",
     "Groups",
     "InputOutput",
@@ -91,6 +94,7 @@ __all__ = [
     "Orbit",
     "OutOfMemory",
     "Run",
+    "SceneWarning",
     "SmoothedMap",
     "StepUnderflow",
     "Sweep",
@@ -100,6 +104,7 @@ __all__ = [
     "UNSET",
     "Unavailable",
     "World",
+    "WorldOrbit",
     "WorldRun",
     "components",
     "export",

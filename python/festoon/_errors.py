@@ -3,6 +3,8 @@
 import errno
 import os
 import re
+import sys
+import warnings
 from typing import Any, Dict, Tuple, Type
 
 from ._festoon import lib
@@ -61,6 +63,22 @@ class OutOfMemory(FestoonError, MemoryError):
 
 class Unavailable(FestoonError):
     """This build or machine lacks a component; the sentence names it."""
+
+
+class SceneWarning(UserWarning):
+    """What was said can be computed, but hardly be meant: parts of a magnet that overlap, an axis that changes only units."""
+
+
+class MaterialWarning(SceneWarning):
+    """Mass, radius and magnetic strength of a bead contradict any material."""
+
+
+def warn(sentence: str, kind: Type[Warning] = UserWarning) -> None:
+    """A warning at the line of the user's that has called the module."""
+    frame, level = sys._getframe(1), 2
+    while frame.f_back is not None and str(frame.f_globals.get("__name__")).startswith("festoon."):
+        frame, level = frame.f_back, level + 1
+    warnings.warn(sentence, kind, stacklevel=level)
 
 
 class Interrupted(KeyboardInterrupt):

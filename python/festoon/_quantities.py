@@ -1,6 +1,9 @@
 """Values with units: what parameters are given as, and the units in which numbers leave."""
 
+from decimal import Decimal
 from typing import Any, Dict, SupportsFloat, Tuple, Union
+
+import numpy as np
 
 from ._errors import BadInput
 from ._native import call, ffi, lib, places_of, text_of
@@ -66,16 +69,34 @@ class Scales:
         self._units = units_of(units)
         given = ffi.typeof(params).kind == "struct" and ffi.typeof(params).cname == "fst_scales"
         self._scales = ffi.new("fst_scales *", params if given else lib.fst_scales_of(params))
-        self._known: Dict[str, Tuple[float, str]] = {}
+        self._known: Dict[Tuple[str, str], Tuple[float, str]] = {}
 
     def factor(self, number: str, unit: str) -> Tuple[float, str]:
         """The factor of a number of the tables and its unit there, and the name of the unit that it leads to."""
-        if number not in self._known:
+        unit = "gamma" if number == "omega" else unit  # which a run's table calls a pure number, and all others a rate
+        if (number, unit) not in self._known:
             name = ffi.new("const char **")
             kept = unit.encode()
             factor = lib.fst_number_shown(number.encode(), kept, self._units, self._scales, name)
-            self._known[number] = (float(factor), text_of(name[0]))
-        return self._known[number]
+            self._known[number, unit] = (float(factor), text_of(name[0]))
+        return self._known[number, unit]
+
+    def of_parameter(self, key: str, values: Any) -> Tuple[Any, str]:
+        """Values of a parameter, in SI or scaled as it is given, and their unit here, as the program exports them; but omega
+        is in Hz or rad/s, as the result of this name.  The digits are shifted: 0.009 m are 9 mm and not 9.000000000000002."""
+        row, power = lib.fst_param_at(lib.fst_param_find(key.encode())), ffi.new("int *")
+        if row.kind != lib.FST_KIND_REAL:
+            return values, "" if row.kind == lib.FST_KIND_CHOICE else "1"
+        if key == "drive.omega":
+            factor, unit = self.factor("omega", "gamma")
+            return (values if factor == 1.0 else values * factor), unit
+        if self._units != UNITS["lab"]:
+            return values, text_of(lib.fst_unit_name(row.unit))
+        unit = text_of(lib.fst_unit_customary(row.unit, power))
+        if power[0]:
+            shifted = [float(Decimal(repr(float(value))).scaleb(power[0])) for value in np.ravel(values)]
+            values = np.array(shifted).reshape(np.shape(values))
+        return values, unit
 
     def column(self, index: int) -> Tuple[float, str]:
         """The same for a column of a trajectory."""

@@ -203,12 +203,6 @@ class Shown(Tabled):
         return TableIn(self, "lab")
 
 
-def own_units(units: Optional[str], what: str) -> None:
-    """Refuse units of a result whose numbers have their own."""
-    if units is not None:
-        raise BadInput("units", f"{what} has the units that its table names, and no others")
-
-
 def scales_of(params: Any, units: Optional[str]) -> Scales:
     """The scales of a scene; None: numbers stay scaled."""
     return Scales(params, units or "scaled")

@@ -3,12 +3,11 @@
 import itertools
 import math
 import os
-import warnings
 from typing import TYPE_CHECKING, Any, Dict, FrozenSet, Iterable, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 
-from ._errors import BadInput
+from ._errors import BadInput, MaterialWarning, SceneWarning, warn
 from ._keys import keyword_of, known_key
 from ._native import Watch, call, ffi, lib, path_bytes, rows_of, take_text, text_of
 from ._progress import Progress
@@ -27,10 +26,6 @@ if TYPE_CHECKING:
     from .sweeps import Sweep
 
 Path = Union[str, "os.PathLike[str]"]
-
-
-class MaterialWarning(UserWarning):
-    """Mass, radius and magnetic strength of a bead contradict any material."""
 
 
 def _fitting(file: bytes) -> bytes:
@@ -76,6 +71,13 @@ class Bead(Parameters):
                     raise TypeError(f"{scene!r} is not a scene: parameters are keywords, as in Bead(frequency=10.7)")
                 call(lib.fst_scene_read, path_bytes(scene), self._params)
             self._set(keywords)
+            if scene is not None and not isinstance(scene, Bead):
+                self._warn_of_parts()
+
+    def _warn_of_parts(self) -> None:
+        sentence = ffi.new("char[]", 512)
+        if lib.fst_parts_contradiction(self._params, sentence, 512):
+            warn(text_of(sentence), SceneWarning)
 
     def _set(self, keywords: Mapping[str, Any]) -> None:
         given = {known_key(keyword): value for keyword, value in keywords.items() if value is not None}
@@ -100,6 +102,8 @@ class Bead(Parameters):
             if lib.fst_params_clash(self._params, one.encode(), two.encode()):
                 raise BadInput("Bead", f"{one} and {two} are two forms of one quantity: give one")
         self._make()
+        if "magnet.parts" in given:
+            self._warn_of_parts()
 
     def _unset(self, keys: Iterable[str]) -> None:
         """Take parameters back to what they are where nothing was said of them."""
@@ -468,13 +472,14 @@ class Bead(Parameters):
 
     # ------------------------------------------------------------------ what can be asked of it
 
-    def _asked(self) -> "Bead":
+    def _asked(self, of_many: bool = False) -> "Bead":
         """The bead of which something is asked: refuse values without effect, say where mass and radius
-        contradict any material, and take for run.discard what a run leaves out, so that what is told is done."""
+        contradict any material, but of many beads, and take for run.discard what a run leaves out, so that what is told is
+        done."""
         call(lib.fst_params_check_effects, self._params)
         sentence = ffi.new("char[]", 512)
-        if lib.fst_bead_contradiction(self._params, sentence, 512):
-            warnings.warn(text_of(sentence), MaterialWarning, stacklevel=4)
+        if not of_many and lib.fst_bead_contradiction(self._params, sentence, 512):
+            warn(text_of(sentence), MaterialWarning)
         discard = lib.fst_run_discard(self._params)
         if discard == self._params.run_discard:
             return self
@@ -598,7 +603,8 @@ class Bead(Parameters):
         Returns
         -------
         Orbit
-            Its numbers are those of a run over one period, scaled.
+            Its numbers are those of a run over one period, scaled.  Of a bead in a world a `BeadsOrbit` of one bead or, in
+            fields of the laboratory or under an unsteady magnet, a `WorldOrbit`.
 
         Raises
         ------
@@ -609,9 +615,16 @@ class Bead(Parameters):
         Interrupted
             After Ctrl-C.
         """
-        from . import orbits
+        from . import beads_orbits, orbits
 
-        return orbits.orbit(self._asked(), festoons, progress)
+        asked = self._asked()
+        world = text_of(lib.fst_key_of_world(asked._params))
+        if world and festoons is not None:
+            raise BadInput("festoons", f"they are counted on a flat plate in air under a magnet that turns steadily, not with {world}")
+        if world:
+            steady = not lib.fst_key_of_surroundings(asked._params)
+            return (beads_orbits.orbit if steady else beads_orbits.world_orbit)(asked, progress)  # type: ignore[return-value]
+        return orbits.orbit(asked, festoons, progress)
 
     def locked(self, *, progress: Progress = None) -> "LockedStates":
         """Every locked state at this drive: a `LockedStates`.
@@ -624,7 +637,8 @@ class Bead(Parameters):
         Returns
         -------
         LockedStates
-            All of them, stable ones first.
+            All of them, stable ones first.  Of a bead in a world the one to which the start leads, a `BeadsLocked`; without
+            a plate the places where it floats, `FloatingStates`.
 
         Raises
         ------
@@ -633,9 +647,14 @@ class Bead(Parameters):
         Interrupted
             After Ctrl-C.
         """
-        from . import orbits
+        from . import beads_orbits, orbits
 
-        return orbits.locked(self._asked(), progress)
+        asked = self._asked()
+        if self.plate__shape == "none":
+            return beads_orbits.floating(asked, progress)  # type: ignore[return-value]
+        if lib.fst_key_of_world(asked._params):
+            return beads_orbits.locked(asked, progress)  # type: ignore[return-value]
+        return orbits.locked(asked, progress)
 
     def branch(self, *, kind: str = "counter", progress: Progress = None, **keywords: Any) -> "Branch":
         """Follow a family of solutions over a parameter, `omega=(0.15, 0.6)`: a `Branch`.
@@ -644,7 +663,8 @@ class Bead(Parameters):
         ----------
         kind
             counter (the counter-rotating family), locked (all families of equilibria), all, levitating (places where a bead
-            floats without a plate), or driven (the motion that repeats itself with the drive).
+            floats without a plate), or driven (the motion that repeats itself with the drive).  Of a bead in a world it
+            is locked, levitating or driven.
         progress
             True: a bar; or a function of (fraction, what).
         **keywords
@@ -657,7 +677,7 @@ class Bead(Parameters):
         Returns
         -------
         Branch
-            Its points, special points and ends.
+            Its points, special points and ends; of kind locked in a world a `BeadsBranch`.
 
         Raises
         ------
@@ -666,9 +686,15 @@ class Bead(Parameters):
         Interrupted
             After Ctrl-C; `partial` is what was done by then.
         """
-        from . import branches
+        from . import beads_orbits, branches
 
-        return branches.branch(self._asked(), kind, progress, keywords)
+        asked = self._asked()
+        world = text_of(lib.fst_key_of_world(asked._params))
+        if world and kind == "locked":
+            return beads_orbits.branch(asked, progress, keywords)  # type: ignore[return-value]
+        if world and kind in ("counter", "all"):
+            raise BadInput("kind", f"with {world} a branch is of kind locked, levitating or driven")
+        return branches.branch(asked, kind, progress, keywords)
 
     def lyapunov(self, *, progress: Progress = None) -> "Lyapunov":
         """The spectrum of Lyapunov exponents: a `Lyapunov`.

@@ -14,7 +14,7 @@ from ._tabled import NUMBERS, Column, Shown, Table, about, numbers_of, scaled_co
 from .branches import range_of
 
 if TYPE_CHECKING:
-    from .beads import Beads
+    from .bead import Bead
 
 
 def _numbers(pairs: Any) -> Any:
@@ -29,10 +29,10 @@ UNITS = {"r": "l", "mean_r": "l", "mean_alpha_dot": "gamma", "phi_deg": "deg", "
 class _Found(Shown, Printed):
     """What was found of several beads.  Its numbers are scaled (l, 1/gamma); the program prints the same with --json."""
 
-    #: The beads that were asked.
-    setup: "Beads"
+    #: What was asked: `Beads`, or a bead in a world.
+    setup: "Bead"
 
-    def __init__(self, setup: "Beads", told: Dict[str, Any]) -> None:
+    def __init__(self, setup: "Bead", told: Dict[str, Any]) -> None:
         self.setup, self._told = setup, told
 
     def __reduce__(self) -> Any:
@@ -127,7 +127,8 @@ class BeadsLocked(_Found):
 
     def __repr__(self) -> str:
         words = "stable" if self.stable else "unstable"
-        return f"BeadsLocked: {len(self._state['beads'])} beads, {words}, power {self.power:.6g} l^2 gamma^3"
+        count = len(self._state["beads"])
+        return f"BeadsLocked: {count} bead{'s' if count > 1 else ''}, {words}, power {self.power:.6g} l^2 gamma^3"
 
 
 class BeadsBranch(_Found):
@@ -166,8 +167,8 @@ class BeadsBranch(_Found):
         for i, point in enumerate(points):
             of_all["eigenvalues"][i, : len(point["eigenvalues"])] = _numbers(point["eigenvalues"])
         made = self._of_beads(("point",), [point["beads"] for point in points], units, stable=self.stable, **of_all)
-        _, unit, doc = row_of(self.parameter)
-        made.columns["value"] = made.columns["value"]._replace(unit=unit, doc=doc, title=self.parameter)
+        value, unit = scales_of(self.setup._params, units).of_parameter(self.parameter, of_all["value"])
+        made.columns["value"] = Column(("point",), value, unit, row_of(self.parameter)[2], self.parameter)
         return made
 
     def __repr__(self) -> str:
@@ -175,7 +176,79 @@ class BeadsBranch(_Found):
         return f"BeadsBranch: {len(self.values)} points over {self.parameter}; {specials or 'no special point'}"
 
 
-def _ask(setup: "Beads", progress: Progress, title: str, find: Any, found: Any, to_json: Any) -> Dict[str, Any]:
+class WorldOrbit(_Found):
+    """A motion of one bead that repeats itself with the drive, in fields of the laboratory or under an unsteady magnet."""
+
+    @property
+    def period(self) -> float:
+        """Of the drive [1/gamma]."""
+        return float(self._told["period"])
+
+    @property
+    def frame(self) -> str:
+        """Whose axes the state is on: turning or laboratory."""
+        return str(self._told["frame"])
+
+    @property
+    def stable(self) -> bool:
+        """Whether every multiplier is inside the unit circle."""
+        return bool(self._told["stable"])
+
+    @property
+    def multipliers(self) -> Any:
+        """Of the directions in which the bead can move, the largest first."""
+        return _numbers(self._told["multipliers"])
+
+    @property
+    def state(self) -> Any:
+        """Twelve numbers at the start of a period: X Y Z vX vY vZ nX nY nZ WX WY WZ."""
+        return lent(np.array(self._told["state"]))
+
+    @property
+    def residual(self) -> float:
+        """Greatest difference of the state after a period [scaled]."""
+        return float(self._told["residual"])
+
+    def _table(self, units: Optional[str]) -> Table:
+        """One row."""
+        values = {name: getattr(self, name) for name in ("period", "stable", "multipliers", "residual")}
+        values.update(numbers_of(self.state))
+        columns = scaled_columns((), values, {**UNITS, **NUMBERS}, scales_of(self.setup._params, units))
+        return Table((), {}, {"frame": Column((), self.frame), **columns}, about(self.setup.scene()))
+
+    def __repr__(self) -> str:
+        return f"WorldOrbit: {'stable' if self.stable else 'unstable'}, period {self.period:.6g} 1/gamma, {self.frame} frame"
+
+
+class FloatingStates(_Found):
+    """Places where a bead without a plate floats, at rest in the turning frame; stable ones first, then by height."""
+
+    @property
+    def states(self) -> List[Dict[str, Any]]:
+        """Of each place position_m, n, w (1/s), height_mm, tilt_deg, circle_mm, gap_mm, stable, family and eigenvalues_per_s."""
+        return [{**place, "eigenvalues_per_s": _numbers(place["eigenvalues_per_s"])} for place in self._told["states"]]
+
+    def __len__(self) -> int:
+        return len(self._told["states"])
+
+    def _table(self, units: Optional[str]) -> Table:
+        """Where a name says the unit it is that one, whatever is asked for."""
+        known = {"height_mm": "mm", "circle_mm": "mm", "gap_mm": "mm", "tilt_deg": "deg", "position_m": "m", "w": "1/s",
+                 "residual": "1", "eigenvalues_per_s": "1/s"}
+        columns = {}
+        for name in [key for key in self._told["states"][0] if key not in ("n", "state")] if len(self) else ():
+            values = np.array([place[name] for place in self.states])
+            columns[name] = Column(("place", *([f"number_of_{name}"] if values.ndim > 1 else [])), values, known.get(name, ""))
+        state = numbers_of(np.array([place["state"] for place in self.states]).reshape(len(self), len(NUMBERS)))
+        columns.update(scaled_columns(("place",), state, NUMBERS, scales_of(self.setup._params, units)))
+        return Table(("place",), {"place": Column(("place",), np.arange(len(self)))}, columns, about(self.setup.scene()))
+
+    def __repr__(self) -> str:
+        lines = [f"  height {one['height_mm']:.6g} mm, {'stable' if one['stable'] else 'unstable'}" for one in self.states]
+        return "\n".join([f"FloatingStates: {len(self)} places", *lines])
+
+
+def _ask(setup: "Bead", progress: Progress, title: str, find: Any, found: Any, to_json: Any) -> Dict[str, Any]:
     options = options_of(lib.fst_default_beads_options())
     with Watch(progress, title=title) as watch:
         options.progress = watch.told
@@ -184,19 +257,33 @@ def _ask(setup: "Beads", progress: Progress, title: str, find: Any, found: Any, 
     return told
 
 
-def orbit(setup: "Beads", progress: Progress) -> BeadsOrbit:
+def orbit(setup: "Bead", progress: Progress) -> BeadsOrbit:
     """See Beads.orbit()."""
     found = ffi.new("fst_beads_orbit *")
     return BeadsOrbit(setup, _ask(setup, progress, "orbit", lib.fst_beads_orbit_scene, (found,), lib.fst_beads_orbit_json))
 
 
-def locked(setup: "Beads", progress: Progress) -> BeadsLocked:
+def locked(setup: "Bead", progress: Progress) -> BeadsLocked:
     """See Beads.locked()."""
     found = ffi.new("fst_beads_locked *")
     return BeadsLocked(setup, _ask(setup, progress, "locked", lib.fst_beads_locked_scene, (found,), lib.fst_beads_locked_json))
 
 
-def branch(setup: "Beads", progress: Progress, ranges: Mapping[str, Any]) -> BeadsBranch:
+def world_orbit(setup: "Bead", progress: Progress) -> WorldOrbit:
+    """See Bead.orbit()."""
+    found = ffi.new("fst_world_orbit *")
+    return WorldOrbit(setup, _ask(setup, progress, "orbit", lib.fst_world_orbit_find, (found,), lib.fst_world_orbit_json))
+
+
+def floating(setup: "Bead", progress: Progress) -> FloatingStates:
+    """See Bead.locked()."""
+    found = ffi.gc(ffi.new("fst_levitation_list *"), lib.fst_levitation_free)
+    with Watch(progress, title="locked") as watch:
+        watch.call(lib.fst_levitation_find, setup._params, watch.told, found)
+    return FloatingStates(setup, json.loads(take_text(lib.fst_levitation_json(setup._params, found))))
+
+
+def branch(setup: "Bead", progress: Progress, ranges: Mapping[str, Any]) -> BeadsBranch:
     """See Beads.branch()."""
     if len(ranges) != 1:
         raise BadInput("branch", 'give the range of one parameter, as in frequency=("20 Hz", "400 Hz")')

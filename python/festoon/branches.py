@@ -188,11 +188,12 @@ class Branch(Shown, Told):
         in_three = np.any(self.points["levitation"]["state"])
         states = numbers_of(self.points["levitation"]["state"]) if in_three else numbers_of(self.points["state"], OF_PLATE)
         known = {**UNITS, **NUMBERS, "multipliers": "1", "eigenvalues": eigen}
-        known.update(value=row_of(self.key)[1], second=row_of(self.second_key)[1] if self.second_key else "")
-        made = scaled_columns(("point",), {**values, **states}, known, self._scales(units))
+        scales = self._scales(units)
+        made = scaled_columns(("point",), {**values, **states}, known, scales)
         for name, key in (("value", self.key), ("second", self.second_key)):
             if name in made and key:
-                made[name] = made[name]._replace(doc=row_of(key)[2], title=key)
+                shown, unit = scales.of_parameter(key, values[name])
+                made[name] = Column(("point",), shown, unit, row_of(key)[2], key)
         point = Column(("point",), np.arange(len(self)), "", "number of the point")
         scene = "" if self.bead is None else self.bead.scene()
         return Table(("point",), {"point": point}, made, about(scene, kind=self.kind, parameter=self.key))

@@ -5,11 +5,10 @@ from typing import Any, Dict, NamedTuple, Optional, Tuple
 
 import numpy as np
 
-from ._keys import row_of
 from ._native import Watch, ffi, lib, take_text
 from ._pickled import Told
 from ._progress import Progress
-from ._tabled import Column, Table, Tabled, about, own_units
+from ._tabled import Column, Shown, Table, about, scales_of
 from .bead import Bead
 
 
@@ -22,7 +21,7 @@ class Stretch(NamedTuple):
     runs: int
 
 
-class Critical(Tabled, Told):
+class Critical(Shown, Told):
     """The critical speed and the runs that enclose it; see docs/orbits.md, "The critical speed"."""
 
     def __init__(self, bead: Bead, told: Dict[str, Any]) -> None:
@@ -48,12 +47,12 @@ class Critical(Tabled, Told):
 
     def _table(self, units: Optional[str]) -> Table:
         """Its stretches."""
-        own_units(units, "Critical")
-        unit = {"begin": row_of(self.key)[1], "end": row_of(self.key)[1]}
-        columns = {
-            name: Column(("stretch",), np.array([getattr(one, name) for one in self.stretches]), unit.get(name, ""))
-            for name in Stretch._fields
-        }
+        columns, scales = {}, scales_of(self.bead._params, units)
+        for name in Stretch._fields:
+            values, unit = np.array([getattr(one, name) for one in self.stretches]), ""
+            if name in ("begin", "end"):
+                values, unit = scales.of_parameter(self.key, values)
+            columns[name] = Column(("stretch",), values, unit)
         stretch = Column(("stretch",), np.arange(len(self.stretches)))
         return Table(("stretch",), {"stretch": stretch}, columns, about(self.bead.scene(), parameter=self.key))
 

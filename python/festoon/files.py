@@ -3,10 +3,9 @@
 import json
 import os
 import subprocess
-import warnings
 from typing import Any, Dict, Iterable, List, Optional, Union
 
-from ._errors import BadInput, FestoonError, Unavailable
+from ._errors import BadInput, FestoonError, Unavailable, warn
 from ._native import Watch, call, ffi, lib, path_bytes, strings, take_text, text_of
 from ._progress import Progress
 from ._quantities import units_of
@@ -93,7 +92,7 @@ def merge(databases: Iterable[Path], path: Path, *, progress: Progress = None) -
     with Watch(progress, title="merge") as watch:
         watch.call(lib.fst_sweep_merge, ffi.new("const char *[]", kept), len(kept), path_bytes(path), watch.told, merged)
     if merged.rows < merged.points:
-        warnings.warn(f"{merged.points - merged.rows} of {merged.points} points have no row: {text_of(merged.missing)}", stacklevel=2)
+        warn(f"{merged.points - merged.rows} of {merged.points} points have no row: {text_of(merged.missing)}")
     return read_sweep(path)
 
 

@@ -2,7 +2,7 @@
 
 import contextlib
 import json
-from typing import Any, Dict, Iterable, Optional, Union
+from typing import Any, Dict, Iterable, List, Optional, Union
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from ._native import Watch, call, ffi, lent, lib, options_of, path_bytes, string
 from ._pickled import Told, image_of, same, struct_of
 from ._progress import Progress
 from ._quantities import quantity
-from ._tabled import Column, Table, Tabled, about, own_units
+from ._tabled import Column, Shown, Table, about, scales_of
 from .bead import Bead
 from .measuring import Measurement, Path, Track, _points_measured, _seconds, read_track
 
@@ -40,7 +40,7 @@ class FitParameter:
         return f"{self.key} = {self.value:.6g} +- {self.error:.2g}{unit}"
 
 
-class Fit(Tabled, Told):
+class Fit(Shown, Told):
     """Parameters that follow from measured points, and how well they are known."""
 
     def __init__(self, fit: Any, points: Any, begun: Bead) -> None:
@@ -70,9 +70,12 @@ class Fit(Tabled, Told):
 
     def _table(self, units: Optional[str]) -> Table:
         """A row a parameter.  Their units differ, and are a column."""
-        own_units(units, "Fit")
-        rows = {name: [getattr(one, name) for one in self.parameters] for name in ("value", "error", "bootstrap_error", "unit")}
-        rows["low"], rows["high"] = ([one.interval[i] for one in self.parameters] for i in (0, 1))
+        scales = scales_of(self.bead._params, units)
+        rows: Dict[str, List[Any]] = {name: [] for name in ("value", "error", "bootstrap_error", "unit", "low", "high")}
+        for one in self.parameters:
+            numbers, unit = scales.of_parameter(one.key, np.array([one.value, one.error, one.bootstrap_error, *one.interval]))
+            for name, value in zip(rows, [*numbers[:3], unit, *numbers[3:]]):
+                rows[name].append(value)
         columns = {name: Column(("parameter",), np.array(values)) for name, values in rows.items()}
         columns["correlation"] = Column(("parameter", "with"), self.correlation, "1")
         keys = np.array([one.key for one in self.parameters])

@@ -9,7 +9,7 @@ from ._keys import keyword_of, row_of
 from ._native import lent, lib, text_of
 from ._pickled import Told
 from ._quantities import Scales
-from ._tabled import NUMBERS, Column, Table, Tabled, about, numbers_of, scaled_columns
+from ._tabled import NUMBERS, Column, Shown, Table, about, numbers_of, scaled_columns
 from .bead import Bead
 
 
@@ -29,9 +29,14 @@ class Axis:
         else:
             self.values = lent(values.astype(int) if kind == "int" else values)
 
-    def at(self, points: Any) -> Any:
-        """The values at points of the grid."""
-        return lent(np.asarray(self.values[(points // self.stride) % len(self.values)]))
+    def at(self, points: Any, values: Any = None) -> Any:
+        """The values, or those in another unit, at points of the grid."""
+        values = self.values if values is None else values
+        return lent(np.asarray(values[(points // self.stride) % len(values)]))
+
+    def shown(self, scales: Scales) -> Tuple[Any, str]:
+        """The values in other units, and the unit."""
+        return scales.of_parameter(self.key, self.values)
 
 
 def sizes_of(axes: List[Axis]) -> Dict[str, int]:
@@ -47,20 +52,20 @@ def scales_over(axes: List[Axis], base: Any, units: Optional[str]) -> Scales:
     return Scales(base, units or "scaled")
 
 
-def coords_of(axes: List[Axis], dims: Tuple[str, ...], points: Any) -> Dict[str, Column]:
-    """The varied parameters at points of a grid, in SI or scaled, as they are given."""
+def coords_of(axes: List[Axis], dims: Tuple[str, ...], points: Any, scales: Scales) -> Dict[str, Column]:
+    """The varied parameters at points of a grid."""
     made = {}
     for axis in axes:
-        kind, unit, doc = row_of(axis.key)
+        values, unit = axis.shown(scales)
         along, at = dims, points
         if axis.keyword in dims:
             place = dims.index(axis.keyword)
             along, at = (axis.keyword,), np.moveaxis(points, place, 0).reshape(points.shape[place], -1)[:, 0]
-        made[axis.keyword] = Column(along, axis.at(at), "" if kind == "str" else unit, doc, axis.key)
+        made[axis.keyword] = Column(along, axis.at(at, values), unit, row_of(axis.key)[2], axis.key)
     return made
 
 
-class SweepTable(Tabled, Told):
+class SweepTable(Shown, Told):
     """What a sweep of several beads, of one in a world or of places of levitation tells: columns over a grid.
 
     A column is an attribute and an item, an array of the grid's shape: numbers, NaN where undefined, or words.
@@ -120,8 +125,8 @@ class SweepTable(Tabled, Told):
         return {name: [row[name] for row in self._rows] for name in self.columns}
 
     def _table(self, units: Optional[str]) -> Table:
-        """Parameters are in SI or scaled, as they are given."""
-        coords = coords_of(self.axes, self.dims, np.arange(int(np.prod(self.shape))).reshape(self.shape))
+        scales = scales_over(self.axes, self._base._params, units)
+        coords = coords_of(self.axes, self.dims, np.arange(int(np.prod(self.shape))).reshape(self.shape), scales)
         values = {name: self[name] for name in self.columns if name not in (*coords, *(axis.key for axis in self.axes))}
         states = values.pop("final_state", None)
         known = {name: self._units[name] for name, column in values.items() if column.dtype.kind == "f"}
@@ -129,7 +134,6 @@ class SweepTable(Tabled, Told):
         if states is not None:
             values.update(numbers_of(states, before="final_"))
             known.update({f"final_{name}": unit for name, unit in NUMBERS.items()})
-        scales = scales_over(self.axes, self._base._params, units)
         return Table(self.dims, coords, scaled_columns(self.dims, values, known, scales, {}), about(self._base.scene()))
 
     def __repr__(self) -> str:

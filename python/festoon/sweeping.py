@@ -2,14 +2,13 @@
 
 import os
 import tempfile
-import warnings
 from typing import Any, Dict, List, Optional, Tuple
 
 import numpy as np
 
-from ._errors import BadInput, OutOfMemory
+from ._errors import BadInput, MaterialWarning, OutOfMemory, SceneWarning, warn
 from ._keys import known_key
-from ._native import Watch, ffi, lib, options_of, path_bytes, places_of, strings
+from ._native import Watch, ffi, lib, options_of, path_bytes, places_of, strings, text_of
 from ._progress import Progress
 from ._quantities import value_text
 from .bead import Bead
@@ -75,8 +74,17 @@ def _into_file(
         options.progress = watch.told
         watch.call(lib.fst_sweep, bead._params, path_bytes(path), options, counts)
     if 0 < counts.undefined == counts.computed:
-        warnings.warn(f"{by or 'regime'} has no value in any run, so nothing was refined", stacklevel=3)
+        warn(f"{by or 'regime'} has no value in any run, so nothing was refined")
     return read_sweep(path)
+
+
+def _warn(grid: Any, levitation: bool) -> None:
+    """What the program says of such a sweep."""
+    sentence = ffi.new("char[]", 512)
+    if lib.fst_grid_contradiction(grid, sentence, 512):
+        warn(text_of(sentence), MaterialWarning)
+    if not levitation and lib.fst_grid_idle_axes(grid, sentence, 512):
+        warn(f"{text_of(sentence)} (Bead.groups has them)", SceneWarning)
 
 
 def _refining(levels: int, by: Optional[str], step: float) -> Tuple[int, Optional[str], float]:
@@ -169,12 +177,13 @@ def sweep(
     >>> s.shape, [str(regime) for regime in s.regime]
     ((2,), ['counter-rotating', 'counter-rotating'])
     """
-    bead = (bead or Bead())._asked()
+    bead = (bead or Bead())._asked(of_many=True)
     texts = [axis_text(keyword, values) for keyword, values in axes.items()]
     if threads is not None and threads < 0:
         raise BadInput("threads", f"{threads} is not a number of threads: 1 or more, or 0 for all processors")
     count = threads or len(os.sched_getaffinity(0))
     grid = grid_of(bead, texts, seed)
+    _warn(grid, levitation)
     refining = _refining(refine, refine_by, refine_step)
     if shard != (0, 0) and file is None:
         raise BadInput("shard", "a part of a sweep is for merging: give it a file")

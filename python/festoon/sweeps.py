@@ -3,16 +3,15 @@
 import json
 import os
 import tempfile
-import warnings
 from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 
-from ._errors import BadInput, FestoonError, Interrupted, OutOfMemory
+from ._errors import BadInput, FestoonError, Interrupted, OutOfMemory, warn
 from ._keys import key_of
 from ._native import Watch, call, dtype_of, exception_of, ffi, lent, lib, owned_array, path_bytes, strings, text_of
-from ._tabled import Column, Table, Tabled, about, scaled_columns
-from ._tables import RESULTS, SweepNumbers
+from ._tabled import NUMBERS, OF_PLATE, Table, Tabled, about, numbers_of, scaled_columns
+from ._tables import PARAMETERS, RESULTS, SweepNumbers
 from .bead import Bead
 from .runs import REGIMES, SYMMETRIES, Run
 from .sweep_tables import Axis, SweepTable, coords_of, scales_over, sizes_of
@@ -32,9 +31,22 @@ class SweepIn(SweepNumbers):
     def _array(self, name: str) -> Any:
         return self._sweep._array(name) * self._scales.factor(name, RESULTS[name][0])[0]
 
+    def parameter(self, keyword: str) -> Any:
+        """The values of a varied parameter, as `Sweep.parameter`."""
+        axis = self._sweep._axis(keyword)
+        return axis.at(self._sweep._points, axis.shown(self._scales)[0])
+
+    def __getattr__(self, name: str) -> Any:
+        sweep = self.__dict__.get("_sweep")
+        if sweep is not None and any(axis.keyword == name for axis in sweep.axes):
+            return self.parameter(name)
+        raise AttributeError(f"a Sweep has no {name} in other units")
+
     def unit(self, name: str) -> str:
-        """The unit of a number here."""
-        return self._scales.factor(name, RESULTS[name][0])[1]
+        """The unit of a number, or of a varied parameter, here."""
+        if name in RESULTS:
+            return self._scales.factor(name, RESULTS[name][0])[1]
+        return str(self._sweep._axis(name).shown(self._scales)[1])
 
     def __reduce__(self) -> Any:
         return SweepIn, (self._sweep, self._units)
@@ -56,6 +68,8 @@ class Sweep(Tabled, SweepNumbers):
         self._rows, self._grid, self._owner, self._map = lent(rows), grid, owner, field_map
         #: Of a refined sweep: by point the regime of runs around it that agree, where none was made; else NaN.
         self._between: Any = None
+        #: Where a run began from the end of its neighbour.
+        self._carried = np.zeros(len(rows), int)
         #: Of random axes; None: not known, for it was read from a file.
         self._seed: Optional[int] = None
         self.axes = [Axis(grid, i) for i in range(lib.fst_grid_axis_count(grid))]
@@ -97,9 +111,12 @@ class Sweep(Tabled, SweepNumbers):
         KeyError
             Where it is not varied.
         """
+        return self._axis(keyword).at(self._points)
+
+    def _axis(self, keyword: str) -> Axis:
         for axis in self.axes:
             if axis.keyword == keyword or axis.key == key_of(keyword):
-                return axis.at(self._points)
+                return axis
         raise KeyError(f"{keyword} is not varied: {', '.join(axis.keyword for axis in self.axes)}")
 
     def __getattr__(self, name: str) -> Any:
@@ -196,9 +213,25 @@ class Sweep(Tabled, SweepNumbers):
         return lent(names[np.where(self.done, self._rows["result"]["symmetry"][self._points], 0)])
 
     @property
+    def status(self) -> Any:
+        """What became of each run: "done", "missing", or in what way it failed."""
+        words = np.array([*(text_of(lib.fst_status_text(i)) for i in range(lib.FST_STATUS_COUNT)), "missing"])
+        return lent(words[self._status()])
+
+    @property
     def reason(self) -> Any:
-        """Why each regime."""
-        return lent(np.char.decode(self._rows["result"]["reason"][self._points], "utf-8", "replace"))
+        """Why each regime, or why a run failed."""
+        words = np.char.decode(self._rows["result"]["reason"][self._points], "utf-8", "replace").astype(object)
+        for place in np.argwhere(self.failed):
+            words[tuple(place)] = getattr(self.errors[tuple(place)], "sentence")
+        return lent(words.astype(str))
+
+    @property
+    def dynamics(self) -> Any:
+        """The equations of motion of each run, farago2020 or rigid."""
+        varied = [axis for axis in self.axes if axis.key == "model.dynamics"]
+        base = PARAMETERS["model.dynamics"][1].split(", ")[lib.fst_grid_base(self._grid).model_dynamics]
+        return varied[0].at(self._points) if varied else lent(np.full(self.shape, base))
 
     @property
     def rhs_calls(self) -> Any:
@@ -284,7 +317,7 @@ class Sweep(Tabled, SweepNumbers):
         for i in np.flatnonzero(self._rows["error"]):
             error = ffi.cast("fst_error *", int(self._rows["error"][i]))
             errors[int(i)] = ffi.string(error.where), ffi.string(error.sentence)
-        return _sweep_again, (grid, rows, errors, self._points, self.dims, self._between)
+        return _sweep_again, (grid, rows, errors, self._points, self.dims, self._between, self._carried)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Sweep):
@@ -309,16 +342,20 @@ class Sweep(Tabled, SweepNumbers):
     # ------------------------------------------------------------------ for other libraries
 
     def _table(self, units: Optional[str]) -> Table:
-        """Parameters are in SI or scaled, as they are given; results cannot leave where the unit of the scaled ones is varied."""
+        """The columns of `festoon export --csv`; results cannot leave where the unit of the scaled ones is varied."""
         shown = scales_over(self.axes, lib.fst_grid_base(self._grid), units)
-        coords = coords_of(self.axes, self.dims, self._points)
-        # omega is a parameter and a result: the same number, and one column.
-        values = {name: self._array(name) for name in RESULTS if name not in coords}
+        coords = coords_of(self.axes, self.dims, self._points, shown)
         known, docs = ({name: row[i] for name, row in RESULTS.items()} for i in (0, 1))
-        columns = {name: Column(self.dims, getattr(self, name)) for name in ("regime", "symmetry")}
-        columns.update(scaled_columns(self.dims, values, known, shown, docs))
-        errors = ["" if error is None else str(error) for error in self.errors.ravel()]
-        columns["error"] = Column(self.dims, np.array(errors, object).reshape(self.shape))
+        result = self._rows["result"]
+        values: Dict[str, Any] = {"point": self._points, "status": self.status, "carried": self._carried[self._points]}
+        values.update((name, getattr(self, name)) for name in ("regime", "symmetry", "reason", "dynamics", "never_slips"))
+        values.update((name, self._array(name)) for name in RESULTS)
+        values.update({"returns": result["returns"][self._points], "rhs_calls": self.rhs_calls,
+                       "steps_accepted": result["accepted"][self._points], "steps_rejected": result["rejected"][self._points]})
+        values.update(numbers_of(self.final_state, OF_PLATE, before="final_"))
+        known.update({f"final_{name}": NUMBERS[name] for name in OF_PLATE})
+        # omega is a parameter and a result: the same number, and one column.
+        columns = scaled_columns(self.dims, {name: value for name, value in values.items() if name not in coords}, known, shown, docs)
         scene = Bead._unmade(lib.fst_grid_base(self._grid)[0]).scene()
         return Table(self.dims, coords, columns, about(scene, axes="; ".join(self._axis_texts())))
 
@@ -378,13 +415,13 @@ def sweep_of(batch: Any, grid: Any, field_map: Any = None) -> Sweep:
     rows = owned_array(lib.pyf_batch_rows(batch), count, dtype_of("pyf_row"), owner, writable=True)
     lacking = (rows["done"] == 0) | (rows["status"] != lib.FST_OK)
     if lacking.any():
-        for name in RESULTS:
+        for name in (*RESULTS, "final_state"):
             rows["result"][name][lacking] = np.nan
     return Sweep(rows, grid, owner, field_map)
 
 
 def _sweep_again(
-    given: Tuple[str, List[str], int], rows: Any, errors: Mapping[int, Any], points: Any, dims: Any, between: Any
+    given: Tuple[str, List[str], int], rows: Any, errors: Mapping[int, Any], points: Any, dims: Any, between: Any, carried: Any
 ) -> Sweep:
     """A sweep from another process, which must have the same build."""
     scene, axes, seed = given
@@ -400,7 +437,7 @@ def _sweep_again(
         if not lib.pyf_row_fail(lib.pyf_batch_rows(batch) + i, where, sentence):
             raise OutOfMemory("sweep", "no memory for a row")
     made = Sweep(ours, grid, (batch, grid))
-    made._points, made.dims, made._between, made._seed = points, dims, between, seed
+    made._points, made.dims, made._between, made._carried, made._seed = points, dims, between, carried, seed
     return made
 
 
@@ -462,7 +499,7 @@ def read_sweep(path: Path) -> Any:
         except FestoonError as error:
             if not os.path.exists(out) or isinstance(error, OutOfMemory):
                 raise
-            warnings.warn(error.sentence, stacklevel=2)
+            warn(error.sentence)
         with open(out, encoding="utf-8") as file:
             given = json.load(file)
     if given and "symmetry" not in given[0]:
@@ -475,5 +512,6 @@ def read_sweep(path: Path) -> Any:
     for row in given:
         _fill(rows[row["point"]], row, texts)
     made = sweep_of(batch, grid)
+    made._carried[[row["point"] for row in given]] = [row["carried"] for row in given]
     made._between = _regimes_between(path)
     return made

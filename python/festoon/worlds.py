@@ -1,13 +1,15 @@
 """One bead in a world in which it needs three dimensions."""
 
-from typing import TYPE_CHECKING, Any, Mapping
+from typing import TYPE_CHECKING, Any, Mapping, Union
 
 from ._errors import BadInput
 from ._native import lib, text_of
 from .bead import Bead
 
 if TYPE_CHECKING:
+    from .beads_orbits import BeadsBranch, BeadsLocked, BeadsOrbit, FloatingStates, WorldOrbit
     from .beads_runs import WorldRun
+    from .branches import Branch
 
 
 class World(Bead):
@@ -34,39 +36,16 @@ class World(Bead):
         """The key that asks for three dimensions."""
         return text_of(lib.fst_key_of_world(self._params))
 
-    def orbit(self, **keywords: Any) -> None:  # type: ignore[override]
-        """The program's: `festoon orbit SCENE --json` finds orbits of a bead in a world.
-
-        Parameters
-        ----------
-        **keywords
-            Those of `Bead.orbit`, of which none is used.
-
-        Raises
-        ------
-        BadInput
-            Always.
-        """
-        raise BadInput("World.orbit", "orbits of a bead in a world are found by the program: festoon orbit SCENE --json")
-
-    def branch(self, **keywords: Any) -> None:  # type: ignore[override]
-        """The program's: `festoon branch SCENE -o FILE.json` follows families of orbits in a world; read() reads the file.
-
-        Parameters
-        ----------
-        **keywords
-            Those of `Bead.branch`, of which none is used.
-
-        Raises
-        ------
-        BadInput
-            Always.
-        """
-        raise BadInput(
-            "World.branch", "branches of a bead in a world are followed by the program: festoon branch SCENE -o FILE.json"
-        )
-
-    if TYPE_CHECKING:  # Bead.run() makes it
+    if TYPE_CHECKING:  # Bead.run() and its neighbours make them
 
         def run(self, **keywords: Any) -> "WorldRun":  # type: ignore[override]
+            ...
+
+        def orbit(self, **keywords: Any) -> "Union[BeadsOrbit, WorldOrbit]":  # type: ignore[override]
+            ...
+
+        def locked(self, **keywords: Any) -> "Union[BeadsLocked, FloatingStates]":  # type: ignore[override]
+            ...
+
+        def branch(self, **keywords: Any) -> "Union[BeadsBranch, Branch]":  # type: ignore[override]
             ...

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import festoon as fs
+from conftest import ask
 
 SCENES = pathlib.Path(__file__).resolve().parents[2] / "examples/worlds"
 
@@ -84,3 +85,36 @@ def test_branch_of_levitation(tmp_path):
     assert "distance from the magnet" in (tmp_path / "branch.svg").read_text()
     pytest.importorskip("matplotlib")
     assert "distance" in branch.plot().get_ylabel()
+
+
+# ---------------------------------------------------------------------------------------- in a world
+
+
+def test_what_a_bead_in_a_world_does_for_ever(program, tmp_path):
+    """Orbits, locked states, places and branches, as the program prints them."""
+    bowl = {"plate__shape": "bowl", "plate__bowl_radius": "200 mm"}
+    swung = fs.World(drive__waveform="oscillating", drive__amplitude="30 deg", frequency="2 Hz", run__periods=20)
+    floats = fs.World(str(SCENES / "levitation.yaml"))
+    still = fs.World(frequency=2, start__r=0.3, run__periods=100, **bowl)
+    for world, found, words in (
+        (fs.World(**bowl, run__periods=100), lambda world: world.orbit(), ["orbit"]),
+        (swung, lambda world: world.orbit(), ["orbit"]),
+        (still, lambda world: world.locked(), ["locked"]),
+        (floats, lambda world: world.locked(), ["locked"]),
+        (still, lambda world: world.branch(kind="locked", frequency=(2, 2.1)), ["branch", "--kind", "locked", "--over", "drive.frequency=2:2.1"]),
+    ):
+        world.save(tmp_path / "world.yaml")
+        one, told = found(world), ask(program, words[0], str(tmp_path / "world.yaml"), *words[1:], "--json")
+        mine = one.to_dict()
+        for each in (mine, told):  # what a run leaves out is said where it was asked in Python
+            each.pop("scene", None)
+        assert mine == told and pickle.loads(pickle.dumps(one)) == one and len(repr(one)) > 20
+    orbit, places = swung.orbit(), floats.locked()
+    assert orbit.stable and orbit.frame == "turning" and orbit.lab.period == pytest.approx(0.5) and len(orbit.state) == 12
+    assert abs(orbit.multipliers).max() == abs(orbit.multipliers[0]) < 0.2 and orbit.residual < 1e-9
+    assert len(places) == 4 and places.states[0]["stable"] and places.lab.height_mm[0] == places.states[0]["height_mm"]
+    assert isinstance(floats.branch(kind="levitating", frequency=(150, 151)), fs.Branch)
+    for call, words in ((lambda: still.branch(frequency=(2, 3)), "is of kind locked, levitating or driven"),
+                        (lambda: still.orbit(festoons=4), "counted on a flat plate")):
+        with pytest.raises(fs.BadInput, match=words):
+            call()

@@ -2,6 +2,8 @@
 
 import json
 import math
+import subprocess
+import warnings
 
 import numpy as np
 import pytest
@@ -62,6 +64,59 @@ def test_sweep_for_other_libraries():
     assert s.to_pandas().attrs["units"]["kappa"] == "1" and s.to_pandas().attrs["units"]["mean_r"] == "l"
     with pytest.raises(fs.BadInput, match="unit of the scaled numbers"):
         fs.sweep(fs.Bead(run__periods=2), gamma=[300, 310]).to_pandas("lab")
+
+
+@pytest.mark.parametrize("axes, scene, carried", [
+    ({"start__r": "0.95,EPS,0.9", "friction__law": "viscous,coulomb"}, {}, False),
+    ({"omega": "0.2,0.3", "model__dynamics": "rigid,farago2020"}, {"plate__radius": "24 mm"}, False),
+    ({"frequency": "9,10.7"}, {"run__periods": 60}, True)])
+def test_a_frame_is_the_table_of_the_program(program, tmp_path, axes, scene, carried):
+    """All columns under their names, but for the keywords of what is varied; failed runs too."""
+    pandas = pytest.importorskip("pandas")
+    bead = fs.Bead(**{"run__periods": 6, **scene})
+    axes = {name: values.replace("EPS", repr(bead.groups.eps)) for name, values in axes.items()}
+    bead.save(tmp_path / "bead.yaml")
+    words = [word for name, values in axes.items() for word in ("--over", f"{fs._keys.key_of(name)}={values}")]
+    words += ["--carry", "up"] if carried else []
+    for line in (["sweep", str(tmp_path / "bead.yaml"), *words, "-o", str(tmp_path / "s.db")],
+                 ["export", str(tmp_path / "s.db"), "--csv", "-o", str(tmp_path / "s.csv")]):
+        subprocess.run([program, *line], check=True, capture_output=True)
+    theirs = pandas.read_csv(tmp_path / "s.csv", dtype=str, keep_default_na=False).sort_values("point", key=lambda column: column.astype(int))
+    theirs = theirs.rename(columns=fs._keys.keyword_of)
+    theirs = theirs.loc[:, ~theirs.columns.duplicated()]  # omega is a parameter and a result
+    sweeps = [fs.read(tmp_path / "s.db"), fs.sweep(bead, **axes, carry="up" if carried else None)]
+    assert sweeps[0].failed.any() == ("start__r" in axes) and sweeps[0]._carried.any() == carried
+    for frame in (sweep.to_pandas() for sweep in sweeps):
+        assert set(frame) == set(theirs) and len(theirs.columns) > 70
+        for name in theirs:
+            for ours, text in zip(frame[name], theirs[name]):
+                blank = ours in (-1, "") or ours != ours
+                known = blank if text == "" else str(ours) == text or float(ours) == float(text)
+                assert known, (name, ours, text)
+
+
+def test_what_a_sweep_can_hardly_mean_is_warned_of():
+    """By the library's sentences, once, as the program does; a bead that the sweep does not run is not judged."""
+    few, cube = fs.Bead(run__periods=1, run__discard=0), {"kind": "cuboid", "size": ["10 mm"] * 3, "remanence": [1.2, 0, 0]}
+    for axes, kind, words in (
+        ({"magnet__b0": ["1 mT", "2 mT"]}, fs.SceneWarning, "along magnet.b0 only units change"),
+        ({"bead__radius": ["2.5 mm", "3 mm"]}, fs.MaterialWarning, "bead.radius is 0.003 m"),
+    ):
+        with pytest.warns(kind, match=words) as told:
+            fs.sweep(few, **axes)
+        assert len(told) == 1 and told[0].filename == __file__
+    parts = [{**cube, "centre": [x, 0, 0]} for x in (0.0, 0.005, 0.008)]
+    with pytest.warns(fs.SceneWarning, match=r"parts\[0\] and magnet.parts\[1\] overlap \(as 2 other pairs do\)") as told:
+        solid = fs.Bead(magnet__parts=parts)
+    assert told[0].filename == __file__
+    with pytest.warns(fs.SceneWarning, match="overlap:") as told:
+        fs.Bead(fs.Bead(magnet__parts=parts[:2]).scene())
+    assert [one.filename for one in told] == [__file__] * 2
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        solid.replace(frequency=9)
+        fs.Bead(magnet__parts=[parts[0], {**parts[1], "remanence": [-1.2, 0, 0]}])  # a hole
+        fs.sweep(few.replace(bead__radius="3 mm"), bead__radius=["2.5 mm"])
 
 
 def test_sweep_with_random_and_logarithmic_axes():
