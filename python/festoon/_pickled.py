@@ -2,15 +2,15 @@
 
 import json
 import math
-from typing import Any, Dict, Tuple
+from typing import Any, Dict, Optional, Tuple
 
 from ._errors import BadInput
 from ._native import ffi
 
-#: Of structs with pointers: the arrays behind them, and the fields with their lengths ("": a text).
-ARRAYS: Dict[str, Dict[str, str]] = {
+#: Of structs with pointers: the arrays behind them, and the fields with their lengths ("": a text; None: one struct).
+ARRAYS: Dict[str, Dict[str, Optional[str]]] = {
     "fst_locked_list": {"states": "count", "families": "family_count"},
-    "fst_branch": {"points": "point_count", "specials": "special_count", "ends": "end_count"},
+    "fst_branch": {"points": "point_count", "specials": "special_count", "ends": "end_count", "scene": None},
     "fst_fit": {"outliers": "outlier_count", "numbers": "number_count", "curve": "curve_count", "remarks": ""},
     "fst_points": {"rows": "count"},
 }
@@ -21,13 +21,13 @@ Image = Tuple[str, bytes, Dict[str, bytes]]
 def image_of(struct: Any) -> Image:
     """A struct, and the arrays to which it points, as bytes."""
     ctype = ffi.typeof(struct)
-    name = (ctype.item if ctype.kind == "pointer" else ctype).cname
+    name = (ctype.item if ctype.kind == "pointer" else ctype).cname.removeprefix("struct ")
     copy = ffi.new(f"{name} *", struct[0] if ctype.kind == "pointer" else struct)
     arrays: Dict[str, bytes] = {}
     for field, count in ARRAYS.get(name, {}).items():
         pointer = getattr(copy, field)
         if pointer:
-            length = getattr(copy, count) if count else len(ffi.string(pointer)) + 1
+            length = 1 if count is None else getattr(copy, count) if count else len(ffi.string(pointer)) + 1
             arrays[field] = bytes(ffi.buffer(pointer, length * ffi.sizeof(ffi.typeof(pointer).item)))
             setattr(copy, field, ffi.NULL)
     if name == "fst_fit":

@@ -67,7 +67,7 @@ class Scales:
 
     def __init__(self, params: Any, units: str) -> None:
         self._units = units_of(units)
-        given = ffi.typeof(params).kind == "struct" and ffi.typeof(params).cname == "fst_scales"
+        given = ffi.typeof(params) is ffi.typeof("fst_scales")
         self._scales = ffi.new("fst_scales *", params if given else lib.fst_scales_of(params))
         self._known: Dict[Tuple[str, str], Tuple[float, str]] = {}
 

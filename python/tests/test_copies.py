@@ -4,12 +4,15 @@ import copy
 import os
 import pickle
 import signal
+import subprocess
+import sys
 import threading
 
 import numpy as np
 import pytest
 
 import festoon as fs
+from conftest import BUILD
 
 BALL = {"kind": "sphere", "centre": [0, 0, "-5 mm"], "size": "20 mm", "remanence": [1.2, 0, 0]}
 
@@ -53,6 +56,30 @@ def test_copies_and_pickles_are_equal(track):
             if hasattr(one, "to_dict"):
                 assert str(again.to_dict()) == str(one.to_dict())  # as texts, for NaN is not NaN
     assert len(kinds) == 19, kinds
+
+
+AGAIN = """
+import pickle, sys
+sys.path.insert(0, sys.argv[1])
+for one in pickle.load(open(sys.argv[2], "rb")):
+    print(one.to_dict() if hasattr(one, "to_dict") else type(one).__name__, len(pickle.dumps(one)))
+"""
+
+
+def test_pickles_are_read_by_another_process(track, tmp_path):
+    """Nothing in them points into the memory of the process that wrote them."""
+    made = [*results(track), fs.fit(track=track, free="kappa", drive="10.7 Hz", bead=fs.Bead(run__periods=20))]
+    fs.Bead(run__periods=20).branch(omega=(0.26, 0.275)).save(tmp_path / "branch.json")
+    made.append(fs.read(tmp_path / "branch.json"))
+    with open(tmp_path / "all.pickle", "wb") as file:
+        pickle.dump(made, file)
+    done = subprocess.run([sys.executable, "-B", "-c", AGAIN, str(BUILD / "python"), str(tmp_path / "all.pickle")], capture_output=True,
+                          text=True, check=True, env={**os.environ, "MALLOC_PERTURB_": "85"})
+    lines = done.stdout.splitlines()
+    assert len(lines) == len(made) and done.stderr == ""
+    for one, line in zip(made, lines):
+        if hasattr(one, "to_dict"):
+            assert line.startswith(str(one.to_dict())), type(one)
 
 
 def test_arrays_of_results_can_be_read_alone(track):
