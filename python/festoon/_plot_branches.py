@@ -1,15 +1,17 @@
 """Branches in matplotlib's Axes: bifurcation diagrams, as the library's chart describes them."""
 
-from typing import Any
+from typing import Any, Optional
 
-from . import _style
+from . import _plot_several, _style
 from ._native import call, ffi, lib, text_of
 from ._quantities import units_of
 from .orbits import _choose
 
 
-def branch(b: Any, y: str = "mean_r", *, units: str = "given", ax: Any = None) -> Any:
+def branch(b: Any, y: str = "mean_r", *, units: str = "given", label: Optional[str] = None, ax: Any = None) -> Any:
     """Draw a branch: stable parts solid, unstable ones dashed, special points with signs of their own.
+
+    Several branches may go into one Axes, where each has one colour.
 
     Parameters
     ----------
@@ -22,6 +24,8 @@ def branch(b: Any, y: str = "mean_r", *, units: str = "given", ax: Any = None) -
         orbits with the unit circle, or the eigenvalues of locked states.
     units
         "lab" (mm, s, Hz), "scaled" or "si"; "given": those of a laboratory where the parameter has them.
+    label
+        Its name in the key, where several branches stand in one Axes; by default what it has of its own.
     ax
         The Axes to draw into; without it a new figure is made.
 
@@ -45,17 +49,28 @@ def branch(b: Any, y: str = "mean_r", *, units: str = "given", ax: Any = None) -
     made = ffi.new("fst_chart **")
     call(lib.fst_chart_of_branch, b._branch, y.encode(), units_of(units), ffi.NULL, 0, made)
     chart = ffi.gc(made[0], lib.fst_chart_free)
+    others = _plot_several.before(ax)
     ax = _style.axes(ax, 6.0, 4.6)
-    panel = chart.panels[0]
+    panel, there = chart.panels[0], [*ax.lines]
     for i in range(panel.curve_count):
         _style.curve(ax, panel.curves[i])
+    lines = [line for line in ax.lines if line not in there]
     for i in range(chart.mark_count):
         ax.axvline(chart.marks[i].x, color="#777777", linestyle=":", linewidth=1.2, label=text_of(chart.marks[i].text))
     if chart.square:
         ax.set_aspect("equal")
-        ax.set_xlim(chart.x_low, chart.x_high)
-        ax.set_ylim(panel.low, panel.high)
-    about = f"dynamics {b.bead.model__dynamics}" if b.bead else ""
+        limits = [*ax.get_xlim(), *ax.get_ylim()] if others else [chart.x_low, chart.x_high, panel.low, panel.high]
+        ax.set_xlim(min(chart.x_low, limits[0]), max(chart.x_high, limits[1]))
+        ax.set_ylim(min(panel.low, limits[2]), max(panel.high, limits[3]))
+    about = f"dynamics {b.bead.model__dynamics}" if b.bead and not others else ""
+    params = b.bead._params if b.bead else b._branch.scene or None
+    fixed = {"": y, **{key: "" for key in (b.key, b.second_key) if key}}
+    if lines and not chart.square:
+        _plot_several.beside(ax, _plot_several.Drawn(params, fixed, lines, [], label, True))
+    known = set()
+    for signs in ax.collections:  # each sign stands in the key once
+        signs.set_label("_" if signs.get_label() in known else signs.get_label())
+        known.add(signs.get_label())
     _style.dress(ax, text_of(chart.title), about, _style.lowered(chart.x_label), _style.lowered(panel.left_label))
     _style.key_below(ax)
     return ax

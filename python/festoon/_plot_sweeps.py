@@ -4,7 +4,7 @@ from typing import Any, List, Optional, Tuple
 
 import numpy as np
 
-from . import _style
+from . import _plot_several, _style
 from ._errors import BadInput
 from ._keys import row_of
 from ._native import call, ffi, lib, text_of
@@ -85,9 +85,9 @@ def _sweep_values(sweep: Any, y: str, units: str) -> Tuple[Any, str, str]:
 
 def sweep(
     s: Any, y: Optional[str] = None, *, kind: Optional[str] = None, x: Optional[str] = None, units: str = "given",
-    ax: Any = None,
+    label: Optional[str] = None, ax: Any = None,
 ) -> Any:
-    """Draw a sweep: curves over one parameter, a map over two.
+    """Draw a sweep: curves over one parameter, a map over two.  Several sweeps with curves may go into one Axes.
 
     Parameters
     ----------
@@ -101,6 +101,8 @@ def sweep(
         The parameter along the abscissa, by its keyword; by default the first one.
     units
         "lab" (mm, s, Hz), "scaled" or "si"; "given": those of a laboratory where a varied parameter has them.
+    label
+        Its name in the key, where several sweeps stand in one Axes; by default what it has of its own.
     ax
         The Axes to draw into; without it a new figure is made.
 
@@ -142,7 +144,7 @@ def sweep(
         raise BadInput("kind", "a map needs a sweep over two parameters")
     if kind == "map":
         return _map(s, y or "regime", sides, units, ax)
-    return _curves(s, y or "mean_r", sides, units, x is None, ax)
+    return _curves(s, y or "mean_r", sides, units, x is None, label, ax)
 
 
 def _about_sweep(s: Any) -> str:
@@ -158,12 +160,14 @@ def _about_sweep(s: Any) -> str:
     return f"{words}{count}{of} run{'s' if of or count != 1 else ''} of {length}{part}"
 
 
-def _regime_marks(ax: Any, x: Any, y: Any, regimes: Any) -> None:
+def _regime_marks(ax: Any, x: Any, y: Any, regimes: Any) -> List[Any]:
+    made = []
     size = 22 if len(x) <= 80 else 9
     for i in np.unique(regimes[np.isfinite(regimes) & np.isfinite(y)]).astype(int):
         words, colour = _style.look("regime", i)
         here = regimes == i
-        ax.scatter(x[here], y[here], s=size, color=colour, label=words, linewidths=0, zorder=3)
+        made.append(ax.scatter(x[here], y[here], s=size, color=colour, label=words, linewidths=0, zorder=3))
+    return made
 
 
 def _gap_marks(ax: Any, x: Any, states: Any, hidden: Any, level: int, code: str) -> int:
@@ -184,45 +188,58 @@ def _gap_marks(ax: Any, x: Any, states: Any, hidden: Any, level: int, code: str)
     return count
 
 
-def _curves(s: Any, y: str, sides: List[_Side], units: str, free: bool, ax: Any) -> Any:
+def _text(value: Any) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def _curves(s: Any, y: str, sides: List[_Side], units: str, free: bool, name: Optional[str], ax: Any) -> Any:
     if len(sides) == 2 and free and len(sides[0].values) < len(sides[1].values):
         sides.reverse()
     values, label, words = _sweep_values(s, y, units)
     values = np.moveaxis(values, sides[0].along, 0).reshape(len(sides[0].values), -1)
+    others = _plot_several.before(ax)
+    if others and y == "regime":
+        raise BadInput("y", "the regimes of several sweeps do not stand in one Axes: give each its own")
     ax = _style.axes(ax, 6.0, 4.4)
     across, order = sides[0].values, np.argsort(sides[0].values, kind="stable")
     across, values = across[order], values[order]
     title = f"{words} over the {sides[0].words}"
     title = title[0].upper() + title[1:]
-    _style.dress(ax, title, _about_sweep(s), sides[0].label, label)
+    _style.dress(ax, title, "" if others else _about_sweep(s), sides[0].label, label)
     if y == "regime":  # a row for each regime that occurs
         there = np.unique(values[np.isfinite(values)])
         rows = np.searchsorted(there, values).astype(float)
         values = np.where(np.isfinite(values), rows, np.nan)
         ax.set_yticks(range(len(there)), [REGIMES[int(i)] for i in there])
+    lines, marks, before = [], [], sum(len(one.lines) for one in others)
     if len(sides) == 1:
-        ax.plot(across, values[:, 0], color="#b0b0b0", linewidth=0 if y == "regime" else 1.2, zorder=2)
-        _regime_marks(ax, across, values[:, 0], _regime_index(s)[order])
+        lines += ax.plot(across, values[:, 0], color="#b0b0b0", linewidth=0 if y == "regime" else 1.2, zorder=2)
+        marks += _regime_marks(ax, across, values[:, 0], _regime_index(s)[order])
     states = np.where(s.failed, "failed", np.where(s.computed, s.regime, ""))
     states = np.moveaxis(states, sides[0].along, 0).reshape(len(sides[0].values), -1)[order]
     for i in range(values.shape[1] if len(sides) == 2 else 0):
-        ax.plot(
-            across, values[:, i], color=_style.colour(_CURVES[i % len(_CURVES)]), linewidth=1.5, marker="o",
+        lines += ax.plot(
+            across, values[:, i], color=_style.colour(_CURVES[(before + i) % len(_CURVES)]), linewidth=1.5, marker="o",
             linestyle="none" if y == "regime" else "-", markersize=3 if len(across) <= 80 else 1.5,
             label=sides[1].text(i),
         )
-    levels = 0
+    fixed = {"": y}
+    fixed.update({axis.key: "" if axis.keyword in s.dims else _text(axis.at(s._points.flat[0])) for axis in s.axes})
+    drawn = _plot_several.Drawn(lib.fst_grid_base(s._grid), fixed, lines, marks, name, len(sides) == 1)
+    several = _plot_several.beside(ax, drawn)
+    first = levels = sum(one.levels for one in others)
     for i in range(values.shape[1]):
-        code = _style.colour(_CURVES[i % len(_CURVES)]) if len(sides) == 2 else ""
+        code = str(lines[i].get_color()) if several or len(sides) == 2 else ""
         hidden = np.isfinite(values[:, i]) & (len(sides) == 1 or y == "regime")
         levels += _gap_marks(ax, across, states[:, i], hidden, levels, code) > 0
+    drawn.levels = levels - first
     if levels:  # no value lies over the signs
         low, high = ax.get_ylim()
         room = 0.02 + 0.04 * levels
         ax.set_ylim(low - room / (1 - room) * (high - low), high)
     sides[0].dress(ax.xaxis, ax.set_xscale)
     if levels or y != "regime" or len(sides) == 2:
-        _style.key_below(ax, title=sides[1].label if len(sides) == 2 else None)
+        _style.key_below(ax, title=sides[1].label if len(sides) == 2 and not several else None)
     return ax
 
 

@@ -201,10 +201,12 @@ def dress(ax: Any, title: str, about: str = "", x: str = "", y: str = "") -> Non
     title = "\n".join(textwrap.wrap(title, int(TITLE * ax.figure.get_figwidth())))
     about = _broken(about, int(ABOUT * ax.figure.get_figwidth()))
     ax.set_title(title, fontsize=11, pad=8 + 11 * len(about.splitlines()) if about else 6)
+    for text in [text for text in ax.texts if text.get_gid() == "festoon-about"]:
+        text.remove()
     if about:
         ax.annotate(
             about, (0.5, 1), xycoords="axes fraction", xytext=(0, 5), textcoords="offset points",
-            ha="center", va="bottom", fontsize=8.5, color=SOFT,
+            ha="center", va="bottom", fontsize=8.5, color=SOFT, gid="festoon-about",
         )
     ax.set_xlabel(x)
     ax.set_ylabel(y)

@@ -244,3 +244,39 @@ def test_pictures_have_the_magnet():
     rim = rim[np.isfinite(rim).all(axis=1)]
     assert np.allclose(np.hypot(rim[:, 0] - 15, rim[:, 1]), 10, rtol=1e-3) and len(rim) > 90
     assert "mT" in colour_map(ax).get_ylabel()
+
+
+def test_several_sweeps_or_branches_in_one_axes():
+    """Each has a colour of the Axes' cycle and a name of its own; the limits hold all, and no sign hides a value."""
+    import matplotlib.pyplot as plt
+
+    bead = fs.Bead(run__periods=20)
+    s = fs.sweep(bead, frequency=[8, 9, 10], kappa=[1.2, 1.5])
+    far = fs.sweep(bead.replace(kappa=2.5), frequency=[20, 25, 30])
+    ax = s[:, 0].plot()
+    assert len(ax.collections) > 0
+    for one, words in ((s[:, 1], {}), (far, {}), (far, {"label": "mine"})):
+        one.plot(ax=ax, **words)
+    cycle = plt.rcParams["axes.prop_cycle"].by_key()["color"]
+    lines = [line for line in ax.lines if len(line.get_xdata()) == 3 and line.get_linestyle() == "-"]
+    assert [line.get_color() for line in lines] == cycle[:4] and not ax.collections
+    assert [line.get_label() for line in lines] == ["kappa 1.2", "kappa 1.5", "kappa 2.5", "mine"]
+    assert {text.get_text() for text in ax.get_legend().get_texts()} >= {"kappa 1.2", "mine"}
+    for (low, high), values in ((ax.get_xlim(), [8, 30]), (ax.get_ylim(), [*s.lab.mean_r.ravel(), *far.lab.mean_r])):
+        assert low < min(values) and max(values) < high
+    assert not [text for text in ax.texts if text.get_gid()]
+    ax = s.plot("mean_r")
+    s.plot("max_r", ax=ax)
+    lines = [line for line in ax.lines if line.get_linestyle() == "-"]
+    assert len({line.get_color() for line in lines}) == 4
+    assert [line.get_label() for line in lines] == ["1.2, mean_r", "1.5, mean_r", "1.2, max_r", "1.5, max_r"]
+    with pytest.raises(fs.BadInput, match="give each its own"):
+        s[:, 0].plot("regime", ax=ax)
+    ax.clear()
+    far.plot(ax=ax)
+    assert len(ax.collections) > 0 and ax.get_xlim()[0] > 15
+    ax = bead.branch(frequency=(10.5, 11)).plot()
+    bead.replace(kappa=1.8).branch(frequency=(12, 13)).plot(ax=ax)
+    assert [(line.get_label(), line.get_color()) for line in ax.lines] == [("kappa 1.5", cycle[0]), ("kappa 1.8", cycle[1])]
+    assert ax.get_xlim()[0] < 10.5 and ax.get_xlim()[1] > 13
+    plt.close("all")
