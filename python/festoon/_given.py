@@ -1,6 +1,7 @@
-"""Tables that are in memory already, for the readers of files: data frames, dictionaries and arrays."""
+"""What is given to calls: of the right class or refused; tables in memory, for the readers of files."""
 
 import contextlib
+import operator
 import os
 import tempfile
 from typing import Any, Dict, Iterator, Optional, Sequence
@@ -8,6 +9,33 @@ from typing import Any, Dict, Iterator, Optional, Sequence
 import numpy as np
 
 from ._errors import BadInput, FestoonError
+
+
+def of_class(value: Any, name: str, where: str) -> Any:
+    """The value, which must be of a class of this module."""
+    if not any(kind.__name__ == name and kind.__module__.startswith("festoon.") for kind in type(value).__mro__):
+        raise TypeError(f"{where} must be a festoon.{name}, not {type(value).__name__}")
+    return value
+
+
+def word_of(value: Any, where: str) -> bytes:
+    """A text for the library."""
+    if not isinstance(value, str):
+        raise TypeError(f"{where} must be a text, not {type(value).__name__}")
+    if "\0" in value:
+        raise BadInput(where, f"{value!r} has a null character")
+    return value.encode()
+
+
+def whole_of(value: Any, where: str, most: int = 2**31 - 1) -> int:
+    """A whole number from 0 on."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{where} must be a whole number, not {type(value).__name__}") from None
+    if not 0 <= number <= most:
+        raise BadInput(where, f"{value} is not a whole number from 0 to {most}")
+    return number
 
 
 def is_path(data: Any) -> bool:

@@ -261,5 +261,8 @@ def options_of(default: Any) -> Any:
 
 def strings(words: List[str]) -> Tuple[Any, List[Any]]:
     """An array of C strings, and what must stay alive with it."""
+    for word in words:
+        if not isinstance(word, str):
+            raise TypeError(f"{word!r} is not a text")
     kept = [ffi.new("char[]", word.encode()) for word in words]
     return ffi.new("const char *[]", kept), kept

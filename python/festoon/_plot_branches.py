@@ -3,6 +3,7 @@
 from typing import Any, Optional
 
 from . import _plot_several, _style
+from ._given import of_class
 from ._native import call, ffi, lib, text_of
 from ._quantities import units_of
 from .orbits import _choose
@@ -41,6 +42,7 @@ def branch(b: Any, y: str = "mean_r", *, units: str = "given", label: Optional[s
     Unavailable
         Where matplotlib is missing.
     """
+    of_class(b, "Branch", "b")
     names = ["multipliers"]
     while lib.fst_branch_observable_at(len(names) - 1):
         names.append(text_of(lib.fst_branch_observable_at(len(names) - 1).name))
@@ -49,8 +51,8 @@ def branch(b: Any, y: str = "mean_r", *, units: str = "given", label: Optional[s
     made = ffi.new("fst_chart **")
     call(lib.fst_chart_of_branch, b._branch, y.encode(), units_of(units), ffi.NULL, 0, made)
     chart = ffi.gc(made[0], lib.fst_chart_free)
-    others = _plot_several.before(ax)
     ax = _style.axes(ax, 6.0, 4.6)
+    others = _plot_several.before(ax)
     panel, there = chart.panels[0], [*ax.lines]
     for i in range(panel.curve_count):
         _style.curve(ax, panel.curves[i])

@@ -5,6 +5,7 @@ from typing import Any, Optional
 import numpy as np
 
 from . import _style
+from ._given import of_class
 from ._native import call, ffi, lib, text_of
 from ._quantities import UNITS, units_of
 from ._tables import COLUMNS
@@ -109,7 +110,7 @@ def trajectory(
         return _column_over(tr, colour, over, units, begin, end, ax)
     from matplotlib.collections import LineCollection
 
-    (options, _kept), (table, _columns) = _options("PATH", colour, units, begin, end), tr._rows()
+    (options, _kept), (table, _columns) = _options("PATH", colour, units, begin, end), of_class(tr, "Trajectory", "tr")._rows()
     options.from_magnet, options.arrows = frame == "magnet", arrows
     picture = ffi.gc(ffi.new("fst_path_picture *"), lib.fst_path_picture_free)
     call(lib.fst_path_picture_of, table, options, picture)
@@ -142,7 +143,7 @@ def trajectory(
 def _column_over(
     tr: Any, name: str, over: str, units: str, begin: Optional[float], end: Optional[float], ax: Any
 ) -> Any:
-    (options, _kept), (table, _columns) = _options("TIME", name, units, begin, end), tr._rows()
+    (options, _kept), (table, _columns) = _options("TIME", name, units, begin, end), of_class(tr, "Trajectory", "tr")._rows()
     part = ffi.new("fst_figure_part *")
     call(lib.fst_figure_part_of, table, options, part)
     tr = tr[part.first : part.last]
@@ -183,7 +184,7 @@ def orbit(o: Any, colour: str = "n_z", *, frame: str = "magnet", **options: Any)
     Unavailable
         Where matplotlib is missing.
     """
-    periods = abs(o.bead.omega * o.period / (2 * np.pi))
+    periods = abs(of_class(o, "Orbit", "o").bead.omega * o.period / (2 * np.pi))
     # So many samples in a period that the last one closes the curve.
     rate = _SAMPLES * o.bead.gamma / o.period
     whole = o.bead.run(
@@ -230,7 +231,7 @@ def field(
         Where matplotlib is missing.
     """
     if units == "given":
-        units = _style.units_of_bead(bead._params)
+        units = _style.units_of_bead(of_class(bead, "Bead", "bead")._params)
     options = ffi.new("fst_field_options *", lib.fst_default_field_options())
     options.units = units_of(units)
     for name, half in (("half_width", half_width), ("half_height", half_height)):

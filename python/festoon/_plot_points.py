@@ -6,6 +6,7 @@ import numpy as np
 
 from . import _style
 from ._errors import BadInput
+from ._given import of_class
 from ._native import call, ffi, lib, text_of
 from .orbits import _choose
 
@@ -41,7 +42,7 @@ def fit(f: Any, y: Optional[str] = None, *, ax: Any = None) -> Any:
         Where matplotlib is missing.
     """
     names = _measured()
-    if f._points is None:
+    if of_class(f, "Fit", "f")._points is None:
         raise BadInput("Fit.plot", "a fit to a track has no table of points: draw what was measured of the track")
     if y is not None:
         _choose(y, names, "y")
@@ -54,7 +55,7 @@ def fit(f: Any, y: Optional[str] = None, *, ax: Any = None) -> Any:
     made = ffi.new("fst_chart **")
     call(lib.fst_chart_of_fit, f._points, f._fit, what, made)
     chart = ffi.gc(made[0], lib.fst_chart_free)
-    both = [ax]
+    both = [ax if ax is None else _style.axes(ax)]
     if ax is None:
         shape = {"sharex": True, "figsize": (6.0, 6.0), "layout": "constrained", "gridspec_kw": {"height_ratios": (5, 3)}}
         both = list(_style.pyplot().subplots(2, **shape)[1])
@@ -116,6 +117,7 @@ def measurement(m: Any, kind: str = "path", *, ax: Any = None) -> Any:
     Unavailable
         Where matplotlib is missing.
     """
+    of_class(m, "Measurement", "m")
     _choose(kind, list(_KINDS), "kind")
     p, found = _places(m), m._found
     unit = m.length_unit

@@ -33,7 +33,7 @@ _DRAWN: "WeakKeyDictionary[Any, List[Drawn]]" = WeakKeyDictionary()
 
 def before(ax: Any) -> List[Drawn]:
     """What was drawn into an Axes; its limits are no longer those of the first result alone."""
-    found = [one for one in _DRAWN.get(ax, []) if any(line in list(ax.lines) for line in one.lines)] if ax is not None else []
+    found = [one for one in _DRAWN.get(ax, []) if any(line in list(ax.lines) for line in one.lines)]
     if found:
         ax.relim()
         ax.autoscale()

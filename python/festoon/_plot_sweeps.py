@@ -6,6 +6,7 @@ import numpy as np
 
 from . import _plot_several, _style
 from ._errors import BadInput
+from ._given import of_class
 from ._keys import row_of
 from ._native import call, ffi, lib, text_of
 from ._quantities import units_of
@@ -118,6 +119,7 @@ def sweep(
     Unavailable
         Where matplotlib is missing.
     """
+    of_class(s, "Sweep", "s")
     if y is not None:
         _choose(y, ["regime", *RESULTS], "y")
     if kind is not None:
@@ -197,10 +199,10 @@ def _curves(s: Any, y: str, sides: List[_Side], units: str, free: bool, name: Op
         sides.reverse()
     values, label, words = _sweep_values(s, y, units)
     values = np.moveaxis(values, sides[0].along, 0).reshape(len(sides[0].values), -1)
+    ax = _style.axes(ax, 6.0, 4.4)
     others = _plot_several.before(ax)
     if others and y == "regime":
         raise BadInput("y", "the regimes of several sweeps do not stand in one Axes: give each its own")
-    ax = _style.axes(ax, 6.0, 4.4)
     across, order = sides[0].values, np.argsort(sides[0].values, kind="stable")
     across, values = across[order], values[order]
     title = f"{words} over the {sides[0].words}"

@@ -181,6 +181,8 @@ def curve(ax: Any, curve: Any) -> None:
 def axes(ax: Any, width: float = 5.4, height: float = 4.2) -> Any:
     """The caller's Axes, or those of a new figure, of so many inches."""
     if ax is not None:
+        if not (hasattr(ax, "plot") and hasattr(ax, "figure")):
+            raise TypeError(f"ax must be matplotlib's Axes, not {type(ax).__name__}")
         return ax
     return pyplot().subplots(figsize=(width, height), layout="constrained")[1]
 

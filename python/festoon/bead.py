@@ -283,7 +283,7 @@ class Bead(Parameters):
         params, file = ffi.new("fst_params *", self._params[0]), ffi.string(self._params.magnet_file)
         if folder and file and not os.path.isabs(file):  # a path in a scene begins at the scene's folder
             params.magnet_file = _fitting(os.path.relpath(file, os.fsencode(folder)))
-        call(lib.fst_scene_write, path_bytes(path), params, comments, overwrite)
+        call(lib.fst_scene_write, path_bytes(path), params, bool(comments), bool(overwrite))
 
     def scene(self, comments: bool = False) -> str:
         """The bead as YAML text; Bead(text) is the same bead, bit by bit.
@@ -303,7 +303,7 @@ class Bead(Parameters):
         OutOfMemory
             Where there is no memory for it.
         """
-        return take_text(lib.fst_scene_text(self._params, comments))
+        return take_text(lib.fst_scene_text(self._params, bool(comments)))
 
     if not TYPE_CHECKING:
 

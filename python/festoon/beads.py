@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, List, Mapping, 
 import numpy as np
 
 from ._errors import BadInput
+from ._given import whole_of
 from ._keys import key_of, keyword_of
 from ._native import call, ffi, lib, text_of
 from ._progress import Progress
@@ -107,7 +108,7 @@ class Beads(Bead):
             Where there is no such bead.
         """
         params = ffi.new("fst_params *")
-        call(lib.fst_params_of_bead, self._params, number, params)
+        call(lib.fst_params_of_bead, self._params, whole_of(number, "number"), params)
         for key in (*OF_LISTS, *(["impact.restitution"] if self.friction__law != "coulomb" else [])):
             call(lib.fst_params_unset, params, key.encode())
         return Bead._of(params[0], self._map)

@@ -5,6 +5,7 @@ from typing import Any, Dict, NamedTuple, Optional, Tuple
 
 import numpy as np
 
+from ._given import word_of
 from ._native import Watch, ffi, lib, take_text
 from ._pickled import Told
 from ._progress import Progress
@@ -79,7 +80,7 @@ class Critical(Shown, Told):
 def critical(bead: Bead, over: str, tolerance: float, progress: Progress) -> Critical:
     """See Bead.critical()."""
     found = ffi.gc(ffi.new("fst_critical *"), lib.fst_critical_free)
-    axis = ffi.new("char[]", over.encode())
+    axis = ffi.new("char[]", word_of(over, "over"))
     options = ffi.new("fst_critical_options *", lib.fst_default_critical_options())
     options.over, options.tolerance = axis, tolerance
     with Watch(progress, title="critical") as watch:

@@ -4,6 +4,7 @@ import os
 from typing import Any, Dict, Iterable, List, Optional, Tuple, Union
 
 from ._errors import BadInput
+from ._given import of_class, word_of
 from ._native import call, ffi, lib, options_of, path_bytes, places_of, text_of
 from ._quantities import units_of
 
@@ -72,7 +73,7 @@ def trajectory(
     if len(words) > lib.FST_FIGURE_KEYS:
         raise BadInput("keys", f"a figure shows at most {lib.FST_FIGURE_KEYS} columns")
     for i, word in enumerate(words):
-        kept.append(ffi.new("char[]", word.encode()))
+        kept.append(ffi.new("char[]", word_of(word, "keys")))
         options.keys[i] = kept[-1]
     table, arrays = samples._rows()
     call(lib.fst_figure_trajectory, table, path_bytes(path), options)
@@ -105,11 +106,12 @@ def branch(
         Where gnuplot or the ending's converter is missing.
     """
     pairs = [float(number) for pair in dots for number in pair]
+    of_class(branches, "Branch", "branches")
     name = observable or text_of(lib.fst_branch_observable(branches._branch))
     call(
         lib.fst_figure_branch,
         branches._branch,
-        name.encode(),
+        word_of(name, "observable"),
         units_of(units),
         ffi.new("double[]", pairs) if pairs else ffi.NULL,
         len(pairs) // 2,
@@ -136,7 +138,7 @@ def field(bead: Any, path: Path, units: str) -> None:
     Unavailable
         Where gnuplot or the ending's converter is missing.
     """
-    call(lib.fst_figure_field, bead._params, units_of(units), path_bytes(path))
+    call(lib.fst_figure_field, of_class(bead, "Bead", "bead")._params, units_of(units), path_bytes(path))
 
 
 def _sweep_options(kind: Optional[str], keys: Iterable[str], units: str, at: Dict[str, Any]) -> Tuple[Any, List[Any]]:
@@ -148,11 +150,11 @@ def _sweep_options(kind: Optional[str], keys: Iterable[str], units: str, at: Dic
             raise BadInput("kind", f'unknown kind "{kind}"; there are {", ".join(KINDS)}')
         options.kind = KINDS[kind]
     options.units = units_of(units)
-    for field, words in (("keys", list(keys)), ("at", [f"{key}={value}" for key, value in at.items()])):
+    for field, words in (("keys", list(keys)), ("at", [f"{key}={value}" for key, value in dict(at).items()])):
         if len(words) > len(getattr(options, field)):
             raise BadInput(field, f"at most {len(getattr(options, field))} can be given")
         for i, word in enumerate(words):
-            kept.append(ffi.new("char[]", word.encode()))
+            kept.append(ffi.new("char[]", word_of(word, field)))
             getattr(options, field)[i] = kept[-1]
     return options, kept
 
@@ -232,12 +234,12 @@ def over(
     kept += set_options(options, {**given, "units": units}, "figures.over")
     options.kind = KINDS[kind] if kind in KINDS else lib.FST_FIGURE_COUNT
     for i, word in enumerate(words[:lib.FST_FIGURE_KEYS]):
-        kept.append(ffi.new("char[]", word.encode()))
+        kept.append(ffi.new("char[]", word_of(word, "keys")))
         options.keys[i] = kept[-1]
     names = [ffi.new("char[]", path_bytes(file)) for file in files]
     call(
         lib.fst_figure_over, ffi.new("const char *[]", names), len(names), options, sweeps,
-        observable.encode() if observable else ffi.NULL, path_bytes(path),
+        word_of(observable, "observable") if observable else ffi.NULL, path_bytes(path),
     )
     del kept
 

@@ -5,6 +5,7 @@ import os
 import tempfile
 from typing import Any, Dict, Optional, Union
 
+from ._given import whole_of
 from ._native import Watch, ffi, lib, options_of, path_bytes, text_of
 from ._progress import Progress
 from .figures import set_options
@@ -146,7 +147,7 @@ def track(film: Path, *, beads: int = 1, progress: Progress = None, **given: Any
 
     options = options_of(lib.fst_default_film_track_options())
     kept = set_options(options, given, "track")
-    options.beads = beads
+    options.beads = whole_of(beads, "beads")
     found = ffi.new("fst_track[]", lib.FST_TRACKED_BEADS)
     report = ffi.new("fst_film_track_report *")
     with Watch(progress, title="track") as watch:

@@ -7,7 +7,7 @@ from typing import Any, Dict, Iterable, List, Optional, Union
 import numpy as np
 
 from ._errors import BadInput
-from ._given import as_file, is_path
+from ._given import as_file, is_path, of_class, whole_of
 from ._keys import key_of, known_key
 from ._native import Watch, call, ffi, lent, lib, options_of, path_bytes, strings, take_text, text_of
 from ._pickled import Told, image_of, same, struct_of
@@ -230,14 +230,14 @@ def fit(
     """
     if (points is None) == (track is None):
         raise BadInput("fit", "give a table of points, or a track")
-    bead = (bead or Bead())._asked()
+    bead = (Bead() if bead is None else of_class(bead, "Bead", "bead"))._asked()
     options = options_of(lib.fst_default_fit_options())
     free_words, kept_free = strings([known_key(word) for word in ([free] if isinstance(free, str) else free)])
     given_words, kept_given = strings([given] if isinstance(given, str) else list(given))
     options.free, options.free_count = free_words, len(kept_free)
     options.given, options.given_count = given_words, len(kept_given)
-    options.rivals, options.bootstrap, options.seed = rivals, bootstrap, seed
-    options.curve_points = curve_points
+    options.rivals, options.bootstrap, options.seed = bool(rivals), whole_of(bootstrap, "bootstrap"), whole_of(seed, "seed", 2**64 - 1)
+    options.curve_points = whole_of(curve_points, "curve_points")
     if drive is not None:
         options.drive = quantity(drive, lib.FST_UNIT_FREQUENCY, "drive")
     if exposure is not None:

@@ -7,6 +7,7 @@ from typing import Any, Iterator, Tuple, Union
 import numpy as np
 
 from ._errors import BadInput
+from ._given import of_class
 from ._native import Watch, call, ffi, lib, options_of, places_of
 from ._progress import Progress
 from .bead import Bead
@@ -50,7 +51,7 @@ class Flow:
     stop: str
 
     def __init__(self, bead: Bead, state: Any = None, *, progress: Progress = None, **options: Any) -> None:
-        self.bead = bead
+        self.bead = of_class(bead, "Bead", "bead")
         self.stop = ""
         chosen = options_of(lib.fst_default_flow_options())
         for name, value in options.items():

@@ -8,7 +8,7 @@ from typing import Any, Dict, Iterable, List, Mapping, Optional, Tuple, Union
 import numpy as np
 
 from ._errors import BadInput
-from ._given import as_file, is_path
+from ._given import as_file, is_path, of_class, word_of
 from ._native import Watch, call, dtype_of, ffi, lib, options_of, owned_array, path_bytes, take_text, text_of
 from ._pickled import Told, image_of, struct_of
 from ._progress import Progress
@@ -258,7 +258,7 @@ def read_track(
     kept = []
     for field, text in (("format", format), ("name", name)):
         if text is not None:
-            kept.append(ffi.new("char[]", text.encode()))
+            kept.append(ffi.new("char[]", word_of(text, field)))
             setattr(options, field, kept[-1])
     if fps is not None:
         options.fps = quantity(fps, lib.FST_UNIT_FREQUENCY, "fps")
@@ -373,7 +373,7 @@ class Measurement(Tabled, Told, MeasuredNumbers):
                 lib.fst_figure_measurement,
                 self.track._track,
                 self._found,
-                ffi.NULL if compare is None else compare._params,
+                ffi.NULL if compare is None else of_class(compare, "Bead", "compare")._params,
                 path_bytes(path),
                 watch.told,
             )
@@ -500,7 +500,7 @@ def _points_measured(measurements: Iterable[Measurement], drives: Optional[Itera
     points = ffi.new("fst_points *")
     rows = ffi.new("fst_point[]", max(1, len(measured)))
     for i, (one, drive) in enumerate(zip(measured, given)):
-        call(lib.fst_point_of, one._found, quantity(drive, lib.FST_UNIT_FREQUENCY, "drives"), ffi.addressof(rows, i))
+        call(lib.fst_point_of, of_class(one, "Measurement", "measurements")._found, quantity(drive, lib.FST_UNIT_FREQUENCY, "drives"), ffi.addressof(rows, i))
     points.rows, points.count = rows, len(measured)
     return ffi.gc(points, lambda _, kept=(points, rows): None)
 

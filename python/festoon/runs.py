@@ -6,6 +6,7 @@ import os
 from typing import Any, Dict, List, Optional, Union
 
 from ._errors import BadInput
+from ._given import whole_of
 from ._native import Watch, call, dtype_of, ffi, freed_array, lent, lib, options_of, path_bytes, state_of, take_text, text_of
 from ._pickled import Told, image_of, struct_of
 from ._progress import Progress
@@ -294,7 +295,7 @@ def run(
         ("ramp_disturbance", ramp_disturbance),
     ):
         if value is not None:
-            setattr(options, name, value)
+            setattr(options, name, whole_of(value, name) if name == "ramp_points" else value)
     in_memory = trajectory is True
     if not isinstance(trajectory, bool):
         _file(trajectory, bead, samples)

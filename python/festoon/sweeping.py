@@ -7,6 +7,7 @@ from typing import Any, Dict, List, Optional, Tuple
 import numpy as np
 
 from ._errors import BadInput, MaterialWarning, OutOfMemory, SceneWarning, warn
+from ._given import of_class, whole_of, word_of
 from ._keys import known_key
 from ._native import Watch, ffi, lib, options_of, path_bytes, places_of, strings, text_of
 from ._progress import Progress
@@ -63,7 +64,7 @@ def _into_file(
         raise BadInput("carry", f'unknown direction "{carry}": up or down')
     options.carry, options.threads, options.lanes = CARRY[carry], threads, lanes
     levels, by, step = refining
-    key = ffi.new("char[]", by.encode()) if by else ffi.NULL
+    key = ffi.new("char[]", word_of(by, "refine_by")) if by else ffi.NULL
     options.refine, options.refine_by, options.refine_step = levels, key, step
     options.levitation = levitation
     options.shard, options.shards = shard
@@ -177,11 +178,11 @@ def sweep(
     >>> s.shape, [str(regime) for regime in s.regime]
     ((2,), ['counter-rotating', 'counter-rotating'])
     """
-    bead = (bead or Bead())._asked(of_many=True)
+    bead = (Bead() if bead is None else of_class(bead, "Bead", "bead"))._asked(of_many=True)
+    whole_of(seed, "seed", 2**64 - 1)
+    whole_of(lanes, "lanes")
     texts = [axis_text(keyword, values) for keyword, values in axes.items()]
-    if threads is not None and threads < 0:
-        raise BadInput("threads", f"{threads} is not a number of threads: 1 or more, or 0 for all processors")
-    count = threads or len(os.sched_getaffinity(0))
+    count = whole_of(threads or 0, "threads") or len(os.sched_getaffinity(0))
     grid = grid_of(bead, texts, seed)
     _warn(grid, levitation)
     refining = _refining(refine, refine_by, refine_step)

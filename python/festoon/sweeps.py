@@ -115,7 +115,7 @@ class Sweep(Tabled, SweepNumbers):
 
     def _axis(self, keyword: str) -> Axis:
         for axis in self.axes:
-            if axis.keyword == keyword or axis.key == key_of(keyword):
+            if axis.keyword == keyword or axis.key == key_of(str(keyword)):
                 return axis
         raise KeyError(f"{keyword} is not varied: {', '.join(axis.keyword for axis in self.axes)}")
 
