@@ -111,7 +111,7 @@ def trajectory(
     from matplotlib.collections import LineCollection
 
     (options, _kept), (table, _columns) = _options("PATH", colour, units, begin, end), of_class(tr, "Trajectory", "tr")._rows()
-    options.from_magnet, options.arrows = frame == "magnet", arrows
+    options.from_magnet, options.arrows = frame == "magnet", bool(arrows)
     picture = ffi.gc(ffi.new("fst_path_picture *"), lib.fst_path_picture_free)
     call(lib.fst_path_picture_of, table, options, picture)
     ax = _style.axes(ax, 5.4, 5.8)
