@@ -55,7 +55,7 @@ def fit(f: Any, y: Optional[str] = None, *, ax: Any = None) -> Any:
     made = ffi.new("fst_chart **")
     call(lib.fst_chart_of_fit, f._points, f._fit, what, made)
     chart = ffi.gc(made[0], lib.fst_chart_free)
-    both = [ax if ax is None else _style.axes(ax)]
+    both: List[Any] = [ax if ax is None else _style.axes(ax)]
     if ax is None:
         shape = {"sharex": True, "figsize": (6.0, 6.0), "layout": "constrained", "gridspec_kw": {"height_ratios": (5, 3)}}
         both = list(_style.pyplot().subplots(2, **shape)[1])

@@ -230,7 +230,9 @@ def fit(
     """
     if (points is None) == (track is None):
         raise BadInput("fit", "give a table of points, or a track")
-    bead = (Bead() if bead is None else of_class(bead, "Bead", "bead"))._asked()
+    bead = Bead() if bead is None else bead
+    of_class(bead, "Bead", "bead")
+    bead = bead._asked()
     options = options_of(lib.fst_default_fit_options())
     free_words, kept_free = strings([known_key(word) for word in ([free] if isinstance(free, str) else free)])
     given_words, kept_given = strings([given] if isinstance(given, str) else list(given))

@@ -178,7 +178,9 @@ def sweep(
     >>> s.shape, [str(regime) for regime in s.regime]
     ((2,), ['counter-rotating', 'counter-rotating'])
     """
-    bead = (Bead() if bead is None else of_class(bead, "Bead", "bead"))._asked(of_many=True)
+    bead = Bead() if bead is None else bead
+    of_class(bead, "Bead", "bead")
+    bead = bead._asked(of_many=True)
     whole_of(seed, "seed", 2**64 - 1)
     whole_of(lanes, "lanes")
     texts = [axis_text(keyword, values) for keyword, values in axes.items()]

@@ -39,6 +39,8 @@ def test_types(tmp_path):
         "reveal_type(bead.replace(kappa=1.2))\n"
         "reveal_type(bead.run().mean_r)\n"
         "reveal_type(fs.sweep(bead, kappa=[1, 2])[0])\n"
+        "reveal_type(fs.World(plate__shape='none').orbit())\n"
+        "lab: float = bead.run().lab.mean_r + float(fs.sweep(bead, kappa=[1, 2]).lab.kappa[0])\n"
         "fs.Bead(frequenzy=3)\n"
     )
     config = ["--config-file", str(SOURCE / "pyproject.toml")]
@@ -51,5 +53,6 @@ def test_types(tmp_path):
         [mypy, *config, "--cache-dir", str(tmp_path / "cache"), str(tmp_path / "user.py")],
         cwd=BUILD / "python", stdout=subprocess.PIPE, text=True, check=False,
     ).stdout
+    assert "Union[festoon.beads_orbits.BeadsOrbit, festoon.beads_orbits.WorldOrbit]" in user, user
     assert "festoon.bead.Bead" in user and 'is "builtins.float"' in user, user
     assert 'Unexpected keyword argument "frequenzy"' in user and "Found 1 error" in user, user
