@@ -148,7 +148,7 @@ class BeadsTrajectory(Filmed, Shown, Told):
                 radius = factor * (self.setup.alone(i) if isinstance(self.setup, Beads) else self.setup).groups.eps
                 ax.add_patch(Circle(places[-1, i, :2], radius, facecolor=colour, edgecolor="white", alpha=0.7, zorder=3))
         ax.set_aspect("equal")
-        _style.dress(ax, f"Trails of {places.shape[1]} beads", "", f"x ({unit})", f"y ({unit})")
+        _style.dress(ax, f"Trails of {places.shape[1]} beads" if places.shape[1] > 1 else "Trail of the bead", "", f"x ({unit})", f"y ({unit})")
         _style.key_below(ax)
         return ax
 
