@@ -688,7 +688,7 @@ class Bead(Parameters):
         """
         from . import beads_orbits, branches
 
-        asked = self._asked()
+        asked = self._asked(of_many=True)
         world = text_of(lib.fst_key_of_world(asked._params))
         if world and kind == "locked":
             return beads_orbits.branch(asked, progress, keywords)  # type: ignore[return-value]

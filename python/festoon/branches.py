@@ -6,7 +6,7 @@ from typing import Any, Dict, Iterator, List, Mapping, Optional, Tuple
 
 import numpy as np
 
-from ._errors import BadInput
+from ._errors import BadInput, FestoonError, MaterialWarning, warn
 from ._keys import keyword_of, known_key, row_of
 from ._native import (
     Watch,
@@ -30,6 +30,7 @@ from ._tabled import OF_PLATE, NUMBERS, Column, Shown, Table, about, numbers_of,
 from .bead import Bead
 from .orbits import Path, _choose, _names, _Single
 from .runs import SYMMETRIES
+from .sweeps import grid_of
 
 
 
@@ -305,6 +306,17 @@ def range_of(key: str, value: Any) -> Tuple[float, float]:
     return quantity(low, unit, key), quantity(high, unit, key)
 
 
+def _warn(bead: Bead, key: str, ends: Tuple[float, float]) -> None:
+    """Warn if the bead of either end is of no material, as the program does."""
+    sentence = ffi.new("char[]", 512)
+    try:
+        grid = grid_of(bead, [f"{key}={ends[0]!r},{ends[1]!r}"], 0)
+    except FestoonError:
+        return  # the branch itself says what is wrong
+    if lib.fst_grid_contradiction(grid, sentence, 512):
+        warn(text_of(sentence), MaterialWarning)
+
+
 def branch(bead: Bead, kind: str, progress: Progress, keywords: Mapping[str, Any]) -> Branch:
     """See Bead.branch()."""
     options = options_of(lib.fst_default_branch_options())
@@ -321,6 +333,7 @@ def branch(bead: Bead, kind: str, progress: Progress, keywords: Mapping[str, Any
             ranges.append((known_key(name), range_of(known_key(name), value)))
     if not 1 <= len(ranges) <= 2:
         raise BadInput("branch", "give the range of one parameter, as in omega=(0.15, 0.6), or of two")
+    _warn(bead, *ranges[0])
     words, kept = strings([key for key, _ in ranges])
     options.key = words[0]
     setattr(options, "from", ranges[0][1][0])

@@ -105,6 +105,9 @@ def test_what_a_sweep_can_hardly_mean_is_warned_of():
         with pytest.warns(kind, match=words) as told:
             fs.sweep(few, **axes)
         assert len(told) == 1 and told[0].filename == __file__
+    with pytest.warns(fs.MaterialWarning, match="bead.radius is 0.002499 m") as told:
+        fs.Bead().branch(bead__radius=("2.499 mm", "2.5 mm"))
+    assert len(told) == 1 and told[0].filename == __file__
     parts = [{**cube, "centre": [x, 0, 0]} for x in (0.0, 0.005, 0.008)]
     with pytest.warns(fs.SceneWarning, match=r"parts\[0\] and magnet.parts\[1\] overlap \(as 2 other pairs do\)") as told:
         solid = fs.Bead(magnet__parts=parts)
