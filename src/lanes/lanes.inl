@@ -370,8 +370,8 @@ static void pass(void *memory, unsigned lanes)
     pass_time(memory, fst_wide_mask_of(lanes));
 }
 
-/* The lanes whose steps may hold the end of their mode or way.  An onset is short, so that each of its steps
- * may. */
+/* The lanes whose steps may hold the end of their mode or way.  An onset is short, and a creep is
+ * followed step by step, so that each of their steps may. */
 static unsigned may_end_mode(const batch *b)
 {
     const FN(bead_step) *s = &b->step;
@@ -382,7 +382,9 @@ static unsigned may_end_mode(const batch *b)
     const unsigned sticking = fst_wide_lanes_of(FN(is_mode)(m->contact, FST_MODE_STICK)) & b->in_use;
     unsigned may = fst_wide_lanes_of(FN(is_mode)(m->contact, FST_MODE_ONSET)) |
                    fst_wide_lanes_of(WIDE_LESS_EQUAL(rest, b->passes * R(1.0 + 1e-12)));
-    may |= fst_wide_lanes_of(FN(is_moving)(m->contact)) & fst_wide_lanes_of(FN(slip_is_over)(s, b->tolerance));
+    may |= fst_wide_lanes_of(FN(is_mode)(m->contact, FST_MODE_CREEP));
+    may |= fst_wide_lanes_of(FN(is_moving)(m->contact)) &
+           (fst_wide_lanes_of(FN(slip_is_over)(s, b->tolerance)) | fst_wide_lanes_of(FN(slip_may_creep)(s)));
     if (sticking) { /* as fst_flow_first_negative() has it */
         REAL least = R(INFINITY), greatest = R(-INFINITY);
         for (int n = 0; n < FST_PATH_PLACES; ++n) {

@@ -196,7 +196,22 @@ static inline void FN(change_along)(const FN(world) * c, REAL omega, const REAL 
 }
 
 #ifdef REAL_IS_SCALAR
-/* The same of all numbers of a bead in the air (contact/modes.inl). */
+/* The change of the contact along a tangent vector: of its slip, load, push and what else friction sees. */
+static inline FN(contact)
+    FN(contact_change)(const FN(world) * c, const FN(linear) * l, const REAL *y, const REAL *tangent)
+{
+    REAL force[3], turning[3], twist[3], torque[3];
+    FN(contact) by = {.slip = {R(0.0)}};
+    FN(pull_change)(c, l, y, tangent, force, turning);
+    FN(slip)(c, tangent, by.slip);
+    by.load = l->contact.load > 0 ? -force[2] : R(0.0);
+    FN(cross)(tangent + FST_NX, l->at.b, twist);
+    FN(cross)(y + FST_NX, turning, torque);
+    FN(dry_change)(c, l, y, tangent, force, twist, torque, &by);
+    return by;
+}
+
+/* The change of d(state)/dt of all numbers of a bead in the air (contact/modes.inl). */
 static inline void FN(change_aloft)(const FN(world) * c, REAL omega, const REAL *y, const FN(linear) * l,
                                     const REAL *tangent, REAL *change)
 {

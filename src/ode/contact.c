@@ -69,11 +69,12 @@ static void enter_resisted(fst_flow *flow, int mode, int roll, double *state)
     }
 }
 
-/* The mode of a contact that goes on while rolling changes: in an onset with another push. */
+/* The mode of a contact that goes on while rolling changes: in an onset or a creep with another push. */
 static int goes_on(const fst_flow *flow, const double *state)
 {
     const int mode = fst_contact_mode(flow);
-    return mode == FST_MODE_ONSET && fst_slip_is_felt(flow, state) ? FST_MODE_SLIP : mode;
+    const int follows = mode == FST_MODE_ONSET || mode == FST_MODE_CREEP;
+    return follows && fst_slip_is_felt(flow, state) ? FST_MODE_SLIP : mode;
 }
 
 /* The size of the next step in the present modes. */
@@ -88,13 +89,15 @@ static void enter(fst_flow *flow, int mode, int roll, double *state)
     *proposal(flow) = flow->control.proposal;
     if (mode == FST_MODE_FLIGHT)
         mode = leave_or_return(flow, state);
-    mode = mode >= 0 ? mode : goes_on(flow, state);
+    mode = mode >= 0 && (mode != FST_MODE_CREEP || roll < 0) ? mode : goes_on(flow, state);
     if (fst_flow_world(flow)->kinds.resists)
         enter_resisted(flow, mode, roll, state);
     else
         fst_slip_enter(flow, mode, state);
     const double known = *proposal(flow);
     flow->control.proposal = known > 0 ? known : FIRST_SIZE;
+    if (fst_contact_mode(flow) == FST_MODE_CREEP)
+        flow->control.proposal = fmin(flow->control.proposal, flow->contact.slip.longest);
     flow->contact.slip.next = flow->contact.roll.next = -1;
 }
 
@@ -192,7 +195,8 @@ void fst_contact_begin_next(fst_flow *flow)
     fst_contact_state *contact = &flow->contact;
     if (!fst_contact_changes(flow))
         return;
-    contact->captures += fst_contact_mode(flow) == FST_MODE_SLIP && contact->slip.next == FST_MODE_STICK;
+    const int mode = fst_contact_mode(flow), slips = mode == FST_MODE_SLIP || mode == FST_MODE_CREEP;
+    contact->captures += slips && contact->slip.next == FST_MODE_STICK;
     enter(flow, contact->slip.next, contact->roll.next, flow->step.end);
     fst_bead_flow_restart(flow);
 }

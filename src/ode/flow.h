@@ -22,6 +22,7 @@ typedef struct fst_part_state {
     fst_twofold released; /* when the last motion began that was not free at once, */
     double free_at;       /* the speed at which it is, */
     double free_by;       /* and the time after which it usually is */
+    double longest;       /* of a slip that creeps, the greatest size of the next step */
 } fst_part_state;
 
 typedef struct fst_contact_state {

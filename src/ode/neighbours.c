@@ -22,6 +22,10 @@
  *     onset -> slip     nothing happens here either
  *     stick -> slip     static friction was stronger: f != w.  The neighbour lets go at another time, off by
  *                       dt = -Dg d/(Dg w), g being what static friction could still take: d + w dt goes on
+ *     slip -> creep     the slip hardly changes: d - f dt goes on, with the slip in the direction that follows the
+ *     creep -> creep    neighbour's push, by the plate's impulse (at each end of a step of a creep, ode/creep.c)
+ *     creep -> slip     nothing happens
+ *     creep -> stick    as onset -> stick:
  *     onset -> stick    the slip has come back to nothing at the rate s': dt = -ds/s', d + (w - f) dt goes on
  *
  * A bead that flies (ode/flight.c) has a height and a climb, z and z', and so have its neighbours:
@@ -57,6 +61,7 @@
 
 #include "model/disc.h"
 #include "model/tangent.inl"
+#include "ode/creep.h"
 #include "ode/flight.h"
 
 enum { STAGES = 12 };
@@ -159,21 +164,40 @@ static void slip_of(const fst_neighbours *b, const fst_world_double *c, const do
     fst_slip_double(c, seen, slip);
 }
 
-/* Take slips (and pivoting, of a disc) out, as the plate's impulse does: the moment about the contact stays. */
+/* Change the slip of a neighbour by an impulse of the plate: the moment about the contact stays. */
+static void change_slip(const fst_world_double *c, const double change[2], double *d)
+{
+    d[FST_VX] += c->share * change[0];
+    d[FST_VY] += c->share * change[1];
+    d[FST_WX] += c->spin_up * change[1];
+    d[FST_WY] -= c->spin_up * change[0];
+}
+
+/* Take slips (and pivoting, of a disc) out. */
 static void stop_slips(fst_neighbours *b, const fst_world_double *c, const double *y)
 {
     for (int column = 0; column < b->count; ++column) {
         double slip[2], *d = b->d[column];
         slip_of(b, c, y, column, slip);
-        d[FST_VX] -= c->share * slip[0];
-        d[FST_VY] -= c->share * slip[1];
-        d[FST_WX] -= c->spin_up * slip[1];
-        d[FST_WY] += c->spin_up * slip[0];
+        change_slip(c, (const double[2]){-slip[0], -slip[1]}, d);
         slip_of(b, c, y, column, slip); /* what rounding left */
         d[FST_VX] -= slip[0];
         d[FST_VY] -= slip[1];
         if (c->kinds.patch)
             d[FST_WZ] = 0.0;
+    }
+}
+
+/* Turn the slips of a motion that creeps into the direction that follows the push; y is its state. */
+static void turn_slips(fst_neighbours *b, const fst_world_double *c, const fst_modes_double *m, double omega,
+                       const double *y)
+{
+    for (int column = 0; column < b->count; ++column) {
+        double slip[2], turned[2], seen[FST_NUMBERS], *d = b->d[column];
+        neighbour(b, c, y, column, d, seen);
+        fst_slip_double(c, seen, slip);
+        fst_creep_slip_change(c, m, omega, y, seen, turned);
+        change_slip(c, (const double[2]){turned[0] - slip[0], turned[1] - slip[1]}, d);
     }
 }
 
@@ -295,14 +319,9 @@ static double grip_change(const fst_world_double *c, const fst_modes_double *m, 
                           const double *along)
 {
     fst_linear_double l;
-    double f[FST_STATE_SIZE], force[3], turning[3], twist[3], torque[3];
-    fst_contact_double by = {.slip = {0.0}};
+    double f[FST_STATE_SIZE];
     fst_linearise_double(c, m, omega, y, &l, f);
-    fst_pull_change_double(c, &l, y, along, force, turning);
-    by.load = l.contact.load > 0 ? -force[2] : 0.0;
-    fst_cross_double(along + FST_NX, l.at.b, twist);
-    fst_cross_double(y + FST_NX, turning, torque);
-    fst_dry_change_double(c, &l, y, along, force, twist, torque, &by);
+    const fst_contact_double by = fst_contact_change_double(c, &l, y, along);
     if (c->kinds.patch)
         return fst_disc_hold_change(c, &l.contact, &by);
     const double *a = l.contact.push;
@@ -531,6 +550,9 @@ static void change_contact(fst_neighbours *b, const fst_flow *flow, fst_flow *th
         leave(b, flow);
     } else if (before == FST_MODE_SLIP && after == FST_MODE_SLIP) { /* against a push that turns it round */
         stop_slips(b, c, flow->step.end);
+    } else if (after == FST_MODE_CREEP) {
+        catch_up(b, flow, flow);
+        turn_slips(b, c, fst_flow_modes(then), then->step.omega, then->step.y);
     } else if (before == FST_MODE_SLIP) { /* the rest of a slip dies at equal theta */
         stop_slips(b, c, flow->step.end);
         catch_up(b, flow, then);
@@ -541,7 +563,7 @@ static void change_contact(fst_neighbours *b, const fst_flow *flow, fst_flow *th
         bring_to_equal_times(b, flow);
         let_go(b, flow);
         catch_up(b, flow, then);
-    } else if (before == FST_MODE_ONSET && after == FST_MODE_STICK) {
+    } else if (before != FST_MODE_STICK && after == FST_MODE_STICK) { /* an onset or a creep */
         at_equal_speeds(b, flow, 0);
         stop_slips(b, c, flow->step.end);
         catch_up(b, flow, then);
@@ -572,6 +594,8 @@ void fst_neighbours_start(fst_neighbours *b, const fst_flow *flow)
         stop_rolling(b, c);
     if (fst_sticks_double(c, fst_flow_modes(flow)) > 0.5 || fst_contact_mode(flow) == FST_MODE_ONSET)
         stop_slips(b, c, flow->step.y);
+    else if (fst_contact_mode(flow) == FST_MODE_CREEP)
+        turn_slips(b, c, fst_flow_modes(flow), flow->step.omega, flow->step.y);
 }
 
 int fst_neighbours_known(const fst_flow *flow)

@@ -19,6 +19,13 @@
  * motion that begins there.  What is left out is of the order s t^3 in delta, of t^6 in the impulse of the
  * plate, and of t^7 in the place and the direction of the bead afterwards, for slip mends its own direction:
  * s^(7/2).  With the first value of `lean` alone it would be s^(5/2).
+ *
+ * A slip that creeps (creep.c) follows the same bounded solution from any s, without a tie of s to t.  It takes two
+ * terms more: lean_slip as it changes in time, and the next order,
+ *
+ *     e = lean + lean_slip s + third s^2,    third = ((2/3) a lean^3 - lean_slip')/(4 a - 3 c)
+ *
+ * The tangent of delta over s cos(delta), in which a lag is given (lag.inl), has (5/6) lean^3 more.
  */
 #include "ode/onset.h"
 
@@ -60,72 +67,94 @@ static pushed push_of_roll(const fst_world_double *c, const fst_contact_double *
 typedef pushed (*push_function)(const fst_world_double *, const fst_contact_double *,
                                 const fst_contact_double *);
 
-/* The push on a bead in this state of this motion, and its change in time. */
-static pushed push_in(const fst_flow *flow, push_function push, double omega, const double *state)
+/* Whose push it is: a bead in these modes, on a drive of this rate, which itself changes at the rate `ramp`. */
+typedef struct pushed_bead {
+    const fst_world_double *world;
+    const fst_modes_double *modes;
+    push_function push;
+    double omega, ramp;
+} pushed_bead;
+
+static pushed_bead bead_of(const fst_flow *flow, const fst_modes_double *modes, push_function push)
 {
-    const fst_world_double *c = fst_flow_world(flow);
-    fst_linear_double l;
-    double dy[FST_STATE_SIZE], force[3], turning[3], twist[3], torque[3];
-    fst_linearise_double(c, fst_flow_modes(flow), omega, state, &l, dy);
-    fst_contact_double by;
-    fst_pull_change_double(c, &l, state, dy, force, turning);
-    fst_slip_double(c, dy, by.slip);
-    by.load = -force[2];
-    fst_cross_double(dy + FST_NX, l.at.b, twist);
-    fst_cross_double(state + FST_NX, turning, torque);
-    fst_dry_change_double(c, &l, state, dy, force, twist, torque, &by);
-    return push(c, &l.contact, &by);
+    const pushed_bead b = {fst_flow_world(flow), modes, push, fst_drive_rate_double(&flow->drive, flow->t),
+                           flow->drive.ramp};
+    return b;
 }
 
-/* `lean` in a state of this motion; *across: 3 a - 2 c there. */
-static double lean_in(const fst_flow *flow, push_function push, double omega, const double *state,
-                      double *across)
+/* The push on it in a state, and its change in time. */
+static pushed push_in(const pushed_bead *b, double omega, const double *state)
 {
-    const pushed p = push_in(flow, push, omega, state);
-    const double size2 = p.a[0] * p.a[0] + p.a[1] * p.a[1], size = sqrt(size2);
-    const double turns = omega + (p.a[0] * p.da[1] - p.a[1] * p.da[0]) / size2;
-    const double excess = size - p.c;
-    *across = size + 2.0 * excess;
-    return turns / (size + excess);
+    const fst_world_double *c = b->world;
+    fst_linear_double l;
+    double dy[FST_STATE_SIZE];
+    fst_linearise_double(c, b->modes, omega, state, &l, dy);
+    const fst_contact_double by = fst_contact_change_double(c, &l, state, dy);
+    return b->push(c, &l.contact, &by);
+}
+
+/* `lean` in a state, with a and a - c there. */
+typedef struct leaning {
+    double lean, size, excess;
+} leaning;
+
+static leaning leaning_by(const pushed *p, double omega)
+{
+    const double size2 = p->a[0] * p->a[0] + p->a[1] * p->a[1], size = sqrt(size2);
+    const double turns = omega + (p->a[0] * p->da[1] - p->a[1] * p->da[0]) / size2;
+    const double excess = size - p->c;
+    const leaning l = {turns / (size + excess), size, excess};
+    return l;
+}
+
+static leaning leaning_in(const pushed_bead *b, double omega, const double *state)
+{
+    const pushed p = push_in(b, omega, state);
+    return leaning_by(&p, omega);
+}
+
+/* 3 a - 2 c. */
+static double across(const leaning *l)
+{
+    return l->size + 2.0 * l->excess;
 }
 
 /* The states `apart` before (0) and after (1) the given one, to the second order in time. */
-static void states_around(const fst_flow *flow, double omega, const double *state, double apart,
+static void states_around(const pushed_bead *b, const double *state, double apart,
                           double around[2][FST_NUMBERS])
 {
-    const fst_world_double *c = fst_flow_world(flow);
-    const fst_modes_double *m = fst_flow_modes(flow);
+    const fst_world_double *c = b->world;
     double slope[FST_STATE_SIZE], slopes[2][FST_STATE_SIZE];
     fst_pull_double unused;
     memset(around, 0, 2 * sizeof *around); /* they do not lag yet, at no time */
-    fst_rhs_double(c, m, omega, state, slope, &unused);
+    fst_rhs_double(c, b->modes, b->omega, state, slope, &unused);
     for (int side = 0; side < 2; ++side) {
         const double time = side ? apart : -apart;
         for (int i = 0; i < FST_STATE_SIZE; ++i)
             around[side][i] = state[i] + time * slope[i];
-        fst_rhs_double(c, m, omega + time * flow->drive.ramp, around[side], slopes[side], &unused);
+        fst_rhs_double(c, b->modes, b->omega + time * b->ramp, around[side], slopes[side], &unused);
     }
     for (int side = 0; side < 2; ++side)
         for (int i = 0; i < FST_STATE_SIZE; ++i)
             around[side][i] += 0.25 * apart * (slopes[1][i] - slopes[0][i]); /* y'' apart^2/2 */
 }
 
-/* The lag of a motion that begins in this state, whose mode is set; `apart` is the time between the states of
- * which it is made. */
-static void begin_lag(const fst_flow *flow, push_function push, double apart, const double *state,
-                      fst_lag_double *lag)
+/* The lag of a motion in this state; `apart` is the time between the states of which it is made. */
+static fst_lag_double lag_in(const pushed_bead *b, double apart, const double *state, leaning at[3])
 {
-    const double omega = fst_drive_rate_double(&flow->drive, flow->t), turn = apart * flow->drive.ramp;
-    double around[2][FST_NUMBERS], across;
-    states_around(flow, omega, state, apart, around);
-    const double before = lean_in(flow, push, omega - turn, around[0], &across),
-                 after = lean_in(flow, push, omega + turn, around[1], &across);
-    const double lean = lean_in(flow, push, omega, state, &across);
-    lag->lean[0] = lean;
-    lag->lean[1] = (after - before) / (2.0 * apart);
-    lag->lean[2] = 0.5 * (after - 2.0 * lean + before) / (apart * apart);
-    lag->slip = -lag->lean[1] / across;
-    lag->since = 0.0;
+    double around[2][FST_NUMBERS];
+    const double turn = apart * b->ramp;
+    states_around(b, state, apart, around);
+    at[0] = leaning_in(b, b->omega - turn, around[0]);
+    at[2] = leaning_in(b, b->omega + turn, around[1]);
+    at[1] = leaning_in(b, b->omega, state);
+    const double before = at[0].lean, lean = at[1].lean, after = at[2].lean;
+    fst_lag_double lag = {.since = 0.0};
+    lag.lean[0] = lean;
+    lag.lean[1] = (after - before) / (2.0 * apart);
+    lag.lean[2] = 0.5 * (after - 2.0 * lean + before) / (apart * apart);
+    lag.slip = -lag.lean[1] / across(&at[1]);
+    return lag;
 }
 
 double fst_hand_over(double rtol)
@@ -152,26 +181,48 @@ static double time_of_turning(const fst_flow *flow, const double *state)
 double fst_begin_onset(fst_flow *flow, const double *state)
 {
     fst_modes_double *modes = &flow->step.context.modes;
-    fst_lag_double lag;
+    leaning at[3];
     modes->contact = FST_MODE_ONSET;
     modes->onset = fst_new_modes_double().onset;
     const double time = time_of_turning(flow, state);
-    begin_lag(flow, push_of_slip, fmin(APART, PART * time), state, &lag);
-    modes->onset = lag;
+    const pushed_bead b = bead_of(flow, modes, push_of_slip);
+    modes->onset = lag_in(&b, fmin(APART, PART * time), state, at);
     return time;
+}
+
+fst_creeping fst_creeping_at(const fst_flow *flow, const double *state)
+{
+    fst_modes_double modes = *fst_flow_modes(flow);
+    leaning at[3];
+    modes.contact = FST_MODE_CREEP;
+    modes.onset = fst_new_modes_double().onset;
+    const pushed_bead b = bead_of(flow, &modes, push_of_slip);
+    const double apart = fmin(APART, PART * time_of_turning(flow, state));
+    const pushed p = push_in(&b, b.omega, state);
+    modes.onset.lean[0] = leaning_by(&p, b.omega).lean; /* the states around creep too */
+    fst_creeping k = {.lag = lag_in(&b, apart, state, at), .push = {p.a[0], p.a[1]}};
+    fst_lag_double *lag = &k.lag;
+    const double a = at[1].size, e = lag->lean[0], x = across(&at[1]);
+    k.size = a;
+    k.excess = at[1].excess;
+    k.growth = (p.a[0] * p.da[0] + p.a[1] * p.da[1]) / a - p.dc;
+    lag->faster = (lag->slip * (across(&at[0]) - across(&at[2])) / (2.0 * apart) - 2.0 * lag->lean[2]) / x;
+    const double third = (2.0 / 3.0 * a * e * e * e - lag->faster) / (a + 3.0 * k.excess);
+    lag->curve = third + 5.0 / 6.0 * e * e * e;
+    return k;
 }
 
 void fst_begin_rolling(fst_flow *flow, const double *state, double *strength, double *growth, double *turning)
 {
     fst_modes_double *modes = &flow->step.context.modes;
-    fst_lag_double lag;
+    leaning at[3];
     modes->rolling = FST_ROLL_STARTS;
     modes->start = fst_new_modes_double().start;
-    const pushed p = push_in(flow, push_of_roll, fst_drive_rate_double(&flow->drive, flow->t), state);
+    const pushed_bead b = bead_of(flow, modes, push_of_roll);
+    const pushed p = push_in(&b, b.omega, state);
     const double size = fst_norm_2_double(p.a) + 1e-290;
     *turning = fst_norm_2_double(p.da) + 1e-290;
     *strength = p.c;
     *growth = (p.a[0] * p.da[0] + p.a[1] * p.da[1]) / size - p.dc;
-    begin_lag(flow, push_of_roll, fmin(APART, PART * size / *turning), state, &lag);
-    modes->start = lag;
+    modes->start = lag_in(&b, fmin(APART, PART * size / *turning), state, at);
 }

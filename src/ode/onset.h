@@ -11,6 +11,15 @@ double fst_hand_over(double rtol);
  * the usual one. */
 double fst_begin_onset(fst_flow *flow, const double *state);
 
+/* A slip that creeps in a state: how it lags behind the push A, which has this size, exceeds what friction can
+ * take of it by `excess`, and grows past that at the rate `growth`. */
+typedef struct fst_creeping {
+    fst_lag_double lag;
+    double push[2], size, excess, growth;
+} fst_creeping;
+
+fst_creeping fst_creeping_at(const fst_flow *flow, const double *state);
+
 /* Begin to roll in a state, against a resistance that held the bead so far: how strong it is, and how fast the
  * push outgrows it and changes, as rates of W_h. */
 void fst_begin_rolling(fst_flow *flow, const double *state, double *strength, double *growth, double *turning);

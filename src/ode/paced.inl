@@ -3,9 +3,11 @@
  * steps at once.  The including file brings bead_step.inl and path.inl.
  */
 #ifndef PACED_LEAST_DIGITS
-#define PACED_LEAST_DIGITS 0.03 /* relative error of V or W_h that a step may make */
-#define PACED_LEAST_FALL 1e-12  /* below this slip, or the tolerance, rounding may end it: */
-#define PACED_ROUNDING 2e-15    /* of a slip, over the speeds whose difference it is */
+#define PACED_LEAST_DIGITS 0.03    /* relative error of V or W_h that a step may make */
+#define PACED_LEAST_FALL 1e-12     /* below this slip, or the tolerance, rounding may end it: */
+#define PACED_ROUNDING 2e-15       /* of a slip, over the speeds whose difference it is */
+#define PACED_GREATEST_CREEP 0.005 /* a slip below this that changes by no more than this part in a step */
+#define PACED_CREEPS 0.125         /* may creep */
 #endif
 
 /* ------------------------------------------------------------------ how good a step is */
@@ -75,6 +77,17 @@ static inline REAL FN(paced_time)(const FN(bead_step) * s)
 }
 
 /* ------------------------------------------------------------------ whether its mode ends */
+
+/* Whether a slip is so small, and has changed so little in a step, that it may creep (ode/creep.c). */
+static inline REAL_MASK FN(slip_may_creep)(const FN(bead_step) * s)
+{
+    REAL before[2], after[2];
+    FN(slip)(FST_WORLD(s), s->y, before);
+    FN(slip)(FST_WORLD(s), s->end, after);
+    const REAL size = FN(norm_2)(after), change = REAL_ABS(size - FN(norm_2)(before));
+    const REAL small = REAL_SELECT(REAL_LESS(size, R(PACED_GREATEST_CREEP)), R(PACED_CREEPS) * size, R(0.0));
+    return REAL_LESS(change, small);
+}
 
 /* Whether a slip is nearly nothing at the end of a step.  It may fall so slowly, because the push is nearly as
  * strong as friction, that rounding of the velocities keeps it as it is. */

@@ -10,6 +10,7 @@
 
 #include "model/disc.h"
 #include "model/modes.h"
+#include "ode/creep.h"
 #include "ode/onset.h"
 
 static const double HAND_OVER = 0.12;        /* times tolerance^(5/16) */
@@ -92,6 +93,10 @@ static void enter_disc(fst_flow *flow, int mode, double *state)
 
 void fst_slip_enter(fst_flow *flow, int mode, double *state)
 {
+    if (mode == FST_MODE_CREEP) {
+        fst_creep_enter(flow, state);
+        return;
+    }
     if (mode != FST_MODE_FLIGHT && !is_disc(flow)) {
         slip_enter(flow, mode, state);
         return;
@@ -109,6 +114,8 @@ void fst_slip_go_on(fst_flow *flow)
 double fst_slip_ends(fst_flow *flow, int *next)
 {
     double x;
+    if (fst_contact_mode(flow) == FST_MODE_CREEP)
+        return fst_creep_ends(flow, next);
     if (!is_disc(flow))
         return slip_ends(flow, next);
     *next = FST_MODE_SLIP;
@@ -119,11 +126,20 @@ double fst_slip_ends(fst_flow *flow, int *next)
 int fst_slip_after(const fst_flow *flow)
 {
     const fst_bead_step_double *s = &flow->step;
-    if (!is_disc(flow))
-        return slip_after(flow);
+    if (fst_contact_mode(flow) == FST_MODE_CREEP)
+        return fst_creep_after(flow);
+    if (!is_disc(flow)) {
+        const int next = slip_after(flow);
+        return next < 0 && fst_creep_begins(flow) ? FST_MODE_CREEP : next;
+    }
     const int rests = fst_contact_mode(flow) == FST_MODE_SLIP &&
                       fst_disc_rests(FST_WORLD(s), FST_MODES(s), s->end, FST_PATH_PULL(s, FST_PATH_END));
     return rests ? FST_MODE_STICK : -1;
+}
+
+double fst_slip_speed(const fst_flow *flow, const double *state, const fst_pull_double *p)
+{
+    return slip_speed(flow, state, p);
 }
 
 int fst_slip_is_felt(const fst_flow *flow, const double *state)

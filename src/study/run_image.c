@@ -137,7 +137,8 @@ static int is_sound(const image *i, uint64_t expected, int numbers, size_t size)
 /* Whether a run under this law may have such modes. */
 static int are_possible(const fst_modes_double *m, const fst_kinds *kinds)
 {
-    const int flies = m->contact == FST_MODE_FLIGHT, begins = m->contact == FST_MODE_ONSET;
+    const int flies = m->contact == FST_MODE_FLIGHT,
+              begins = m->contact == FST_MODE_ONSET || m->contact == FST_MODE_CREEP;
     const int sticks = m->contact == FST_MODE_STICK, rests = m->rolling == FST_ROLL_RESTS;
     const int of_contact =
         m->contact == FST_MODE_SLIP || (kinds->modes && (sticks || begins)) || (kinds->flies && flies);

@@ -1,8 +1,8 @@
 /* modes.inl - the discrete part of a motion under a law with modes, over REAL.
  *
  * The numbers of a motion change all the time; its modes change at instants only and are constant within a
- * step. A contact slips or sticks, or its slip has just begun (coulomb.inl), or the bead is in the air
- * (ode/flight.c). Where the plate resists rolling, the bead also rolls or rests, or has just started to roll
+ * step. A contact slips or sticks, or its slip has just begun (coulomb.inl), or goes on so slowly that its
+ * direction is known (ode/creep.c), or the bead is in the air (ode/flight.c). Where the plate resists rolling, the bead also rolls or rests, or has just started to roll
  * (resistance.inl):
  *
  *     what moves        in motion    held     just let go    what pushes it
@@ -23,6 +23,7 @@ enum {
     FST_MODE_SLIP = FST_MOVES,
     FST_MODE_STICK = FST_HELD,
     FST_MODE_ONSET = FST_BEGINS,
+    FST_MODE_CREEP,
     FST_MODE_FLIGHT,
     FST_MODES /* how many there are */
 };
@@ -41,7 +42,7 @@ enum {
 typedef struct FN(modes) {
     REAL contact;  /* FST_MODE_* */
     REAL rolling;  /* FST_ROLL_* */
-    FN(lag) onset; /* of the slip that has just begun */
+    FN(lag) onset; /* of the slip that has just begun, or creeps */
     FN(lag) start; /* of the rotation that has just begun */
     REAL slow_2;   /* square of the slowest pivoting of a disc that is not taken for rest (patch.inl) */
 } FN(modes);
@@ -56,7 +57,7 @@ typedef struct FN(motion) {
 static inline FN(modes) FN(new_modes)(void)
 {
     const REAL zero = R(0.0);
-    const FN(lag) none = {zero, {zero, zero, zero}, zero};
+    const FN(lag) none = {zero, zero, zero, {zero, zero, zero}, zero};
     const FN(modes) m = {zero, zero, none, none, R(1e-12)};
     return m;
 }
@@ -74,10 +75,11 @@ static inline REAL_MASK FN(is_mode)(REAL mode, int which)
     return REAL_LESS(REAL_ABS(mode - REAL_OF(which)), R(0.5));
 }
 
-/* Whether a slip or a rotation (in some lane) has just begun, so that the time matters. */
+/* Whether a slip or a rotation (in some lane) has just begun, or creeps, so that the time matters. */
 static inline int FN(something_begins)(const FN(modes) * m)
 {
     return REAL_ANY(FN(is_mode)(m->contact, FST_MODE_ONSET)) ||
+           REAL_ANY(FN(is_mode)(m->contact, FST_MODE_CREEP)) ||
            REAL_ANY(FN(is_mode)(m->rolling, FST_ROLL_STARTS));
 }
 

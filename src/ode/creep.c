@@ -1,0 +1,175 @@
+/* creep.c - a slip so slow that its direction is known.
+ *
+ * Where the push A is nearly as strong as friction, c = k mu N, a bead may slip for a long time at a speed s that
+ * hardly changes and is tiny: V' = A - c V/|V|.  The direction of V then follows that of A at the rate |A|/s.  An
+ * explicit method must make steps of a few s/|A|, however smooth the motion is:
+ *
+ *     direction of V |\
+ *                    | \ after a few s/|A| ...        ... it lags behind that of A by an angle that is known
+ *                    |  `-----.___________________     (onset.c), for as long as s stays small
+ *                    +---------------------------------> t
+ *
+ * Worse, at that size of step what a method leaves of a turned direction does not die out.  So the slip is then
+ * turned into the known direction, and integrated in time with friction along it: the mode creep.  Its steps are
+ * as long as those of a bead that sticks.  What the slip lacks of the known direction at the end of a step is
+ * given back by the plate's impulse, which leaves the moment about the contact as it is; that is also the measure
+ * of how good the lag was, and so of how long the next step may be.
+ *
+ *     slip ---- slow for long, and turned so ----> creep ---+ every step: another lag
+ *      ^                                           ^  |  |  |
+ *      +------------- no longer slow --------------+--+  +--+
+ *                                                  |
+ *                                                  +-- s = 0 ----> stick
+ *
+ * The orders that the lag leaves out are the fourth of s, if every order before is below that power of a `bound`.
+ * The bound goes with the fourth root of the tolerance.
+ */
+#include "ode/creep.h"
+
+#include "model/tangent.inl"
+#include "ode/onset.h"
+#include "ode/slip.h"
+
+static const double LONG = 50.0;   /* s/|A| in which a slip that creeps has not ended or doubled */
+static const double BOUND = 0.5;   /* of the lag of a slip that begins to creep, over tolerance^(1/4) */
+static const double LEAVE = 2.0;   /* how far it may grow */
+static const double MOST = 0.01;   /* the greatest bound */
+static const double DEFECT = 0.3;  /* what the slip may lack after a step, in tolerances */
+static const double FIRST = 0.05;  /* the first step */
+static const double WEAKEST = 0.5; /* 3 a - 2 c over a, below which a direction does not follow well */
+
+static double bound_of(const fst_flow *flow)
+{
+    return fmin(BOUND * sqrt(sqrt(flow->rtol)), MOST);
+}
+
+/* The slip at which the terms of the lag are bound, bound^2 and bound^3. */
+static double greatest_slip(const fst_lag_double *lag, double bound)
+{
+    const double first = fabs(lag->lean[0]), second = sqrt(fabs(lag->slip)), third = cbrt(fabs(lag->curve));
+    return bound / (fmax(first, fmax(second, third)) + 1e-290);
+}
+
+/* The slip along u, the known direction, of V; *off: what V has besides. */
+static double turn_slip(const fst_creeping *k, const double v[2], double u[2], double *off)
+{
+    fst_lag_direction_double(&k->lag, 0.0, k->push, v, u);
+    *off = fabs(u[0] * v[1] - u[1] * v[0]);
+    return v[0] * u[0] + v[1] * u[1];
+}
+
+/* ------------------------------------------------------------------ begin and go on */
+
+/* Whether the slip has hardly changed in the last step, which is cheap to say. */
+static int may_begin(const fst_flow *flow)
+{
+    const fst_world_double *c = fst_flow_world(flow);
+    return fst_contact_mode(flow) == FST_MODE_SLIP && c->kinds.patch == FST_PATCH_POINT &&
+           (!c->kinds.resists || fst_contact_roll(flow) == FST_ROLL_ROLLS) &&
+           fst_slip_may_creep_double(&flow->step);
+}
+
+int fst_creep_begins(const fst_flow *flow)
+{
+    const fst_coulomb_double *law = &fst_flow_world(flow)->law.coulomb;
+    double v[2], u[2], off;
+    if (!may_begin(flow))
+        return 0;
+    const double *end = flow->step.end, bound = bound_of(flow);
+    fst_slip_double(fst_flow_world(flow), end, v);
+    const double s = fst_norm_2_double(v);
+    const fst_creeping k = fst_creeping_at(flow, end);
+    const double a = k.size, along = turn_slip(&k, v, u, &off);
+    const int lasts = fabs(k.excess) * LONG <= a && fabs(k.growth) * s * LONG * LONG <= 2.0 * a * a;
+    const int steady = s * s * law->stribeck * law->fall <= bound * bound * law->sliding;
+    return lasts && steady && along > 0 && s <= greatest_slip(&k.lag, bound) && off <= flow->rtol;
+}
+
+void fst_creep_enter(fst_flow *flow, double *state)
+{
+    const fst_world_double *c = fst_flow_world(flow);
+    const int goes_on = fst_contact_mode(flow) == FST_MODE_CREEP;
+    const fst_creeping k = fst_creeping_at(flow, state);
+    fst_modes_double *modes = &flow->step.context.modes;
+    fst_part_state *slip = &flow->contact.slip;
+    double v[2], u[2], off;
+    fst_slip_double(c, state, v);
+    const double s = turn_slip(&k, v, u, &off);
+    modes->contact = FST_MODE_CREEP;
+    modes->onset = k.lag;
+    slip->free_at = LEAVE * greatest_slip(&k.lag, bound_of(flow));
+    slip->longest = goes_on ? slip->longest : FIRST;
+    fst_set_slip_double(c, state, (const double[2]){s * u[0], s * u[1]});
+}
+
+/* ------------------------------------------------------------------ what ends a step */
+
+static double until_free(const fst_flow *flow, const double *state, const fst_pull_double *p)
+{
+    return flow->contact.slip.free_at - fst_slip_speed(flow, state, p);
+}
+
+static double until_held(const fst_flow *flow, const double *state, const fst_pull_double *p)
+{
+    return fst_slip_speed(flow, state, p) - 0.5 * fst_captured_double(flow->rtol);
+}
+
+/* What the slip lacks of the known direction at the end of the last step, over what it may. */
+static double defect(const fst_flow *flow)
+{
+    const fst_bead_step_double *s = &flow->step;
+    const fst_world_double *c = fst_flow_world(flow);
+    double u[2];
+    const fst_contact_double at =
+        fst_contact_of_double(c, fst_flow_modes(flow), s->end, FST_PATH_PULL(s, FST_PATH_END));
+    fst_lag_direction_double(&fst_flow_modes(flow)->onset, at.time, at.push, at.slip, u);
+    return fabs(u[0] * at.slip[1] - u[1] * at.slip[0]) / (DEFECT * flow->rtol);
+}
+
+double fst_creep_ends(fst_flow *flow, int *next)
+{
+    static const double most = 2.0,
+                        least = 0.1; /* changes of the size of a step; the defect goes with its 4th power */
+    const double off = defect(flow), part = fmin(fmax(0.9 / sqrt(sqrt(off + 1e-290)), least), most);
+    double first = off > 1.0 ? part : 2.0, x;
+    flow->contact.slip.longest = part * flow->step.h;
+    *next = FST_MODE_CREEP;
+    if (fst_flow_first_negative(flow, until_held, 0.0, &x) && x < first) {
+        *next = FST_MODE_STICK;
+        first = x;
+    }
+    if (fst_flow_becomes_negative(flow, until_free, &x) && x < first) {
+        *next = FST_MODE_SLIP;
+        first = x;
+    }
+    return first;
+}
+
+int fst_creep_after(const fst_flow *flow)
+{
+    const fst_bead_step_double *s = &flow->step;
+    const fst_world_double *c = fst_flow_world(flow);
+    const fst_contact_double at =
+        fst_contact_of_double(c, fst_flow_modes(flow), s->end, FST_PATH_PULL(s, FST_PATH_END));
+    const double weakest = (1.5 - 0.5 * WEAKEST) * fst_norm_2_double(at.push);
+    return fst_grip_double(&at, c->yielding, fst_coulomb_mu_double(&c->law.coulomb, 0.0), 0.0) >
+                   weakest - fst_norm_2_double(at.push)
+               ? FST_MODE_SLIP
+               : FST_MODE_CREEP;
+}
+
+/* ------------------------------------------------------------------ neighbours */
+
+void fst_creep_slip_change(const fst_world_double *c, const fst_modes_double *m, double omega, const double *y,
+                           const double *d, double slip[2])
+{
+    fst_linear_double l;
+    double f[FST_STATE_SIZE], u[2], turned[2];
+    fst_linearise_double(c, m, omega, y, &l, f);
+    const fst_contact_double by = fst_contact_change_double(c, &l, y, d), *at = &l.contact;
+    fst_lag_direction_double(&m->onset, 0.0, at->push, at->slip, u);
+    fst_lag_change_double(&m->onset, 0.0, at->push, at->slip, by.push, by.slip, 1.0, 0.0, turned);
+    const double s = fst_norm_2_double(at->slip), along = u[0] * by.slip[0] + u[1] * by.slip[1];
+    for (int i = 0; i < 2; ++i)
+        slip[i] = along * u[i] + s * turned[i];
+}
