@@ -31,7 +31,7 @@
 #include "ode/slip.h"
 
 static const double LONG = 50.0;   /* s/|A| in which a slip that creeps has not ended or doubled */
-static const double BOUND = 0.5;   /* of the lag of a slip that begins to creep, over tolerance^(1/4) */
+static const double BOUND = 0.25;  /* of the lag of a slip that begins to creep, over tolerance^(1/4) */
 static const double LEAVE = 2.0;   /* how far it may grow */
 static const double MOST = 0.01;   /* the greatest bound */
 static const double DEFECT = 0.3;  /* what the slip may lack after a step, in tolerances */

@@ -59,10 +59,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "model/disc.h"
 #include "model/tangent.inl"
 #include "ode/creep.h"
 #include "ode/flight.h"
+#include "ode/slip.h"
 
 enum { STAGES = 12 };
 
@@ -304,31 +304,6 @@ static void forget_clocks(fst_neighbours *b)
         b->d[column][FST_STEP_TIME] = 0.0;
 }
 
-/* What static friction could still take of the push in a state, and its change in time or along a neighbour. */
-static double grip(const fst_world_double *c, const fst_modes_double *m, const double *y)
-{
-    fst_pull_double p;
-    fst_magnetic_pull_double(c, m, y, &p);
-    if (c->kinds.patch)
-        return fst_disc_hold(c, m, y, &p);
-    const fst_contact_double at = fst_contact_of_double(c, m, y, &p);
-    return fst_grip_double(&at, c->yielding, c->law.coulomb.holding, 0.0);
-}
-
-static double grip_change(const fst_world_double *c, const fst_modes_double *m, double omega, const double *y,
-                          const double *along)
-{
-    fst_linear_double l;
-    double f[FST_STATE_SIZE];
-    fst_linearise_double(c, m, omega, y, &l, f);
-    const fst_contact_double by = fst_contact_change_double(c, &l, y, along);
-    if (c->kinds.patch)
-        return fst_disc_hold_change(c, &l.contact, &by);
-    const double *a = l.contact.push;
-    return c->yielding * c->law.coulomb.holding * by.load -
-           (a[0] * by.push[0] + a[1] * by.push[1]) / fst_norm_2_double(a);
-}
-
 /* The neighbours let go when they do, not when the motion does. */
 static void let_go(fst_neighbours *b, const fst_flow *flow)
 {
@@ -337,11 +312,12 @@ static void let_go(fst_neighbours *b, const fst_flow *flow)
     const double *y = flow->step.end, omega = flow->step.omega;
     double w[FST_NUMBERS];
     rate_in(flow, FST_MODE_STICK, fst_contact_roll(flow), w);
-    const double rate = grip_change(c, m, omega, y, w);
+    const double rate = fst_grip_change(c, m, omega, y, w);
     for (int column = 0; column < b->count; ++column)
-        b->d[column][FST_STEP_TIME] = -grip_change(c, m, omega, y, b->d[column]) / rate;
+        b->d[column][FST_STEP_TIME] = -fst_grip_change(c, m, omega, y, b->d[column]) / rate;
     if (differs(b))
-        b->d[b->parameter][FST_STEP_TIME] -= (grip(&b->above, m, y) - grip(&b->below, m, y)) / b->spread / rate;
+        b->d[b->parameter][FST_STEP_TIME] -=
+            (fst_grip_left(&b->above, m, y) - fst_grip_left(&b->below, m, y)) / b->spread / rate;
     shift(b, w, 1.0);
     stop_slips(b, c, y);
 }

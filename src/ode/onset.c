@@ -126,10 +126,10 @@ static void states_around(const pushed_bead *b, const double *state, double apar
     const fst_world_double *c = b->world;
     double slope[FST_STATE_SIZE], slopes[2][FST_STATE_SIZE];
     fst_pull_double unused;
-    memset(around, 0, 2 * sizeof *around); /* they do not lag yet, at no time */
+    memset(around, 0, 2 * sizeof *around);
     fst_rhs_double(c, b->modes, b->omega, state, slope, &unused);
     for (int side = 0; side < 2; ++side) {
-        const double time = side ? apart : -apart;
+        const double time = around[side][FST_STEP_TIME] = side ? apart : -apart;
         for (int i = 0; i < FST_STATE_SIZE; ++i)
             around[side][i] = state[i] + time * slope[i];
         fst_rhs_double(c, b->modes, b->omega + time * b->ramp, around[side], slopes[side], &unused);
@@ -190,6 +190,12 @@ double fst_begin_onset(fst_flow *flow, const double *state)
     return time;
 }
 
+/* Whether the push depends on velocities, so that it changes as friction, and with it the lag, has it. */
+static int push_sees_friction(const fst_kinds *kinds)
+{
+    return kinds->gyroscopic_term_lost || kinds->resists;
+}
+
 fst_creeping fst_creeping_at(const fst_flow *flow, const double *state)
 {
     fst_modes_double modes = *fst_flow_modes(flow);
@@ -198,9 +204,13 @@ fst_creeping fst_creeping_at(const fst_flow *flow, const double *state)
     modes.onset = fst_new_modes_double().onset;
     const pushed_bead b = bead_of(flow, &modes, push_of_slip);
     const double apart = fmin(APART, PART * time_of_turning(flow, state));
-    const pushed p = push_in(&b, b.omega, state);
-    modes.onset.lean[0] = leaning_by(&p, b.omega).lean; /* the states around creep too */
-    fst_creeping k = {.lag = lag_in(&b, apart, state, at), .push = {p.a[0], p.a[1]}};
+    double now[FST_NUMBERS] = {0.0}; /* at no time */
+    memcpy(now, state, FST_STATE_SIZE * sizeof *now);
+    const pushed p = push_in(&b, b.omega, now);
+    modes.onset.lean[0] = leaning_by(&p, b.omega).lean;
+    if (push_sees_friction(&b.world->kinds))
+        modes.onset = lag_in(&b, apart, now, at);
+    fst_creeping k = {.lag = lag_in(&b, apart, now, at), .push = {p.a[0], p.a[1]}};
     fst_lag_double *lag = &k.lag;
     const double a = at[1].size, e = lag->lean[0], x = across(&at[1]);
     k.size = a;

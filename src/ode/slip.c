@@ -10,6 +10,7 @@
 
 #include "model/disc.h"
 #include "model/modes.h"
+#include "model/tangent.inl"
 #include "ode/creep.h"
 #include "ode/onset.h"
 
@@ -147,4 +148,28 @@ int fst_slip_is_felt(const fst_flow *flow, const double *state)
     double slip[2];
     fst_slip_double(fst_flow_world(flow), state, slip);
     return fst_norm_2_double(slip) > captured(flow);
+}
+
+double fst_grip_left(const fst_world_double *c, const fst_modes_double *m, const double *y)
+{
+    fst_pull_double p;
+    fst_magnetic_pull_double(c, m, y, &p);
+    if (c->kinds.patch)
+        return fst_disc_hold(c, m, y, &p);
+    const fst_contact_double at = fst_contact_of_double(c, m, y, &p);
+    return fst_grip_double(&at, c->yielding, c->law.coulomb.holding, 0.0);
+}
+
+double fst_grip_change(const fst_world_double *c, const fst_modes_double *m, double omega, const double *y,
+                       const double *along)
+{
+    fst_linear_double l;
+    double f[FST_STATE_SIZE];
+    fst_linearise_double(c, m, omega, y, &l, f);
+    const fst_contact_double by = fst_contact_change_double(c, &l, y, along);
+    if (c->kinds.patch)
+        return fst_disc_hold_change(c, &l.contact, &by);
+    const double *a = l.contact.push;
+    return c->yielding * c->law.coulomb.holding * by.load -
+           (a[0] * by.push[0] + a[1] * by.push[1]) / fst_norm_2_double(a);
 }

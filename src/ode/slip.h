@@ -23,4 +23,9 @@ double fst_slip_speed(const fst_flow *flow, const double *state, const fst_pull_
 /* Whether a slip is larger than nothing. */
 int fst_slip_is_felt(const fst_flow *flow, const double *state);
 
+/* What static friction could still take of the push in a state, and its change along a neighbour. */
+double fst_grip_left(const fst_world_double *c, const fst_modes_double *m, const double *y);
+double fst_grip_change(const fst_world_double *c, const fst_modes_double *m, double omega, const double *y,
+                       const double *along);
+
 #endif

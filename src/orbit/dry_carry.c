@@ -13,11 +13,6 @@ _Static_assert((int)FST_COLUMNS <= (int)FST_NEIGHBOURS, "every column has a neig
 
 enum { STEP_WORK = 60 }; /* of a step with its columns, in evaluations of the equations */
 
-/* A slip that friction can just stop dies ever more slowly, the slower the closer: so many steps in a row that
- * take no time are not worth an orbit so close to a grazing. */
-enum { MOST_CREEPING = 4000 };
-static const double NO_TIME = 1e-7;
-
 /* Why there are no multipliers and no exponents of a motion. */
 static fst_status refuse(const fst_flow *flow, fst_error *error)
 {
@@ -35,7 +30,7 @@ static fst_status refuse(const fst_flow *flow, fst_error *error)
 }
 
 fst_status fst_dry_step(const fst_setup *setup, struct fst_neighbours *b, fst_flow *flow, double until,
-                        int *creeping, fst_error *error)
+                        fst_error *error)
 {
     fst_status status = fst_watch_count(setup->watch, STEP_WORK, error);
     if (status == FST_OK)
@@ -44,10 +39,6 @@ fst_status fst_dry_step(const fst_setup *setup, struct fst_neighbours *b, fst_fl
         return status;
     if (!fst_neighbours_known(flow))
         return refuse(flow, error);
-    *creeping = fst_contact_elapsed(flow) < NO_TIME ? *creeping + 1 : 0;
-    if (*creeping > MOST_CREEPING)
-        return fst_fail(error, FST_NO_CONVERGENCE, "tangents",
-                        "friction can hardly stop the contact's slip at t = %.6g", flow->t.high);
     fst_neighbours_follow(b, flow);
     return FST_OK;
 }
@@ -56,10 +47,9 @@ static fst_status follow(const fst_setup *setup, fst_neighbours *b, fst_flow *fl
                          fst_error *error)
 {
     const fst_twofold end = {duration, 0.0};
-    int creeping = 0;
     fst_neighbours_start(b, flow);
     while (fst_twofold_difference(end, flow->t) > 0.0) {
-        const fst_status status = fst_dry_step(setup, b, flow, duration, &creeping, error);
+        const fst_status status = fst_dry_step(setup, b, flow, duration, error);
         if (status != FST_OK)
             return status;
         if (setup->sticks && fst_sticks_double(fst_flow_world(flow), fst_flow_modes(flow)) > 0.5)

@@ -86,10 +86,9 @@ fst_status fst_dry_carry(const fst_setup *setup, double tolerance, double durati
 
 struct fst_neighbours;
 
-/* One step of that: the flow goes on, no further than to the time `until`, with its neighbours; `creeping` counts
- * the steps that took no time. */
+/* One step of that: the flow goes on, no further than to the time `until`, with its neighbours. */
 fst_status fst_dry_step(const fst_setup *setup, struct fst_neighbours *b, fst_flow *flow, double until,
-                        int *creeping, fst_error *error);
+                        fst_error *error);
 
 /* An orthonormal basis of the tangent space at y: basis[i][j] is component i of vector j.  Seven vectors lie
  * along the axes; two span the plane across n. */

@@ -62,7 +62,6 @@ typedef struct spectrum {
     fst_model *model;      /* under dry friction: the motion that the columns follow */
     fst_flow *flow;
     double end;          /* of the piece, in the flow's time */
-    int creeping;        /* steps of it that took no time */
     int lost[N];         /* under dry friction: at least once nothing was left of the column */
     double logarithm[N]; /* by which the columns grew in this piece */
     double sum[N];       /* and since the measurement began */
@@ -162,7 +161,7 @@ static fst_status carry_dry(spectrum *s, double piece, fst_error *error)
     fst_flow *flow = s->flow;
     s->end += piece;
     while (fst_twofold_difference((fst_twofold){s->end, 0.0}, flow->t) > 0.0) {
-        const fst_status status = fst_dry_step(&s->setup, &s->bundle, flow, s->end, &s->creeping, error);
+        const fst_status status = fst_dry_step(&s->setup, &s->bundle, flow, s->end, error);
         if (status != FST_OK)
             return status;
         memcpy(s->y, flow->step.end, sizeof s->y);
