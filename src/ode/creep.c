@@ -28,15 +28,14 @@
 
 #include "model/tangent.inl"
 #include "ode/onset.h"
-#include "ode/slip.h"
 
-static const double LONG = 50.0;   /* s/|A| in which a slip that creeps has not ended or doubled */
-static const double BOUND = 0.25;  /* of the lag of a slip that begins to creep, over tolerance^(1/4) */
-static const double LEAVE = 2.0;   /* how far it may grow */
-static const double MOST = 0.01;   /* the greatest bound */
-static const double DEFECT = 0.3;  /* what the slip may lack after a step, in tolerances */
-static const double FIRST = 0.05;  /* the first step */
-static const double WEAKEST = 0.5; /* 3 a - 2 c over a, below which a direction does not follow well */
+static const double LONG = 50.0;     /* s/|A| in which a slip that creeps has not ended or doubled */
+static const double BOUND = 0.25;    /* of the lag of a slip that begins to creep, over tolerance^(1/4) */
+static const double LEAVE = 2.0;     /* how far it may grow */
+static const double MOST = 0.01;     /* the greatest bound */
+static const double DEFECT = 0.3;    /* what the slip may lack after a step, in tolerances */
+static const double FIRST = 0.05;    /* the first step */
+static const double STRONGER = 0.25; /* how much stronger than the push, over it, friction may be */
 
 static double bound_of(const fst_flow *flow)
 {
@@ -104,14 +103,21 @@ void fst_creep_enter(fst_flow *flow, double *state)
 
 /* ------------------------------------------------------------------ what ends a step */
 
+/* The speed along the push. */
+static double speed(const fst_flow *flow, const double *state, const fst_pull_double *p)
+{
+    const fst_contact_double at = fst_contact_of_double(fst_flow_world(flow), fst_flow_modes(flow), state, p);
+    return (at.slip[0] * at.push[0] + at.slip[1] * at.push[1]) / fst_norm_2_double(at.push);
+}
+
 static double until_free(const fst_flow *flow, const double *state, const fst_pull_double *p)
 {
-    return flow->contact.slip.free_at - fst_slip_speed(flow, state, p);
+    return flow->contact.slip.free_at - speed(flow, state, p);
 }
 
 static double until_held(const fst_flow *flow, const double *state, const fst_pull_double *p)
 {
-    return fst_slip_speed(flow, state, p) - 0.5 * fst_captured_double(flow->rtol);
+    return speed(flow, state, p) - 0.5 * fst_captured_double(flow->rtol);
 }
 
 /* What the slip lacks of the known direction at the end of the last step, over what it may. */
@@ -128,9 +134,9 @@ static double defect(const fst_flow *flow)
 
 double fst_creep_ends(fst_flow *flow, int *next)
 {
-    static const double most = 2.0,
-                        least = 0.1; /* changes of the size of a step; the defect goes with its 4th power */
-    const double off = defect(flow), part = fmin(fmax(0.9 / sqrt(sqrt(off + 1e-290)), least), most);
+    static const double most = 2.0, least = 0.1; /* changes of the size of a step */
+    const double off = defect(flow);             /* goes with the fourth power of the size */
+    const double part = fmin(fmax(0.9 / sqrt(sqrt(off + 1e-290)), least), most);
     double first = off > 1.0 ? part : 2.0, x;
     flow->contact.slip.longest = part * flow->step.h;
     *next = FST_MODE_CREEP;
@@ -151,11 +157,8 @@ int fst_creep_after(const fst_flow *flow)
     const fst_world_double *c = fst_flow_world(flow);
     const fst_contact_double at =
         fst_contact_of_double(c, fst_flow_modes(flow), s->end, FST_PATH_PULL(s, FST_PATH_END));
-    const double weakest = (1.5 - 0.5 * WEAKEST) * fst_norm_2_double(at.push);
-    return fst_grip_double(&at, c->yielding, fst_coulomb_mu_double(&c->law.coulomb, 0.0), 0.0) >
-                   weakest - fst_norm_2_double(at.push)
-               ? FST_MODE_SLIP
-               : FST_MODE_CREEP;
+    const double grip = fst_grip_double(&at, c->yielding, fst_coulomb_mu_double(&c->law.coulomb, 0.0), 0.0);
+    return grip > STRONGER * fst_norm_2_double(at.push) ? FST_MODE_SLIP : FST_MODE_CREEP;
 }
 
 /* ------------------------------------------------------------------ neighbours */

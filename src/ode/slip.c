@@ -138,11 +138,6 @@ int fst_slip_after(const fst_flow *flow)
     return rests ? FST_MODE_STICK : -1;
 }
 
-double fst_slip_speed(const fst_flow *flow, const double *state, const fst_pull_double *p)
-{
-    return slip_speed(flow, state, p);
-}
-
 int fst_slip_is_felt(const fst_flow *flow, const double *state)
 {
     double slip[2];

@@ -17,9 +17,6 @@ double fst_slip_ends(fst_flow *flow, int *next);
 /* The mode that follows a slip that is nearly nothing, -1 where it goes on. */
 int fst_slip_after(const fst_flow *flow);
 
-/* The speed of a slip along the push. */
-double fst_slip_speed(const fst_flow *flow, const double *state, const fst_pull_double *p);
-
 /* Whether a slip is larger than nothing. */
 int fst_slip_is_felt(const fst_flow *flow, const double *state);
 
