@@ -21,8 +21,9 @@ static fst_status read_table(const char *name, const char *bytes, size_t size, f
     fst_map_points points = {.path = name, .called = "line", .error = error};
     fst_status status;
     if (!fst_ends_in(name, ".csv") && !fst_ends_in(name, ".txt"))
-        return fst_map_points_refuse(&points, "this page reads maps from tables (.csv, .txt), not from HDF5 or "
-                                              "VTK: festoon field --csv makes a table of any map");
+        return fst_map_points_refuse(&points,
+                                     "this page reads tables (.csv, .txt), not HDF5 or VTK: festoon run --csv "
+                                     "makes one of a motion, festoon field --csv one of a field");
     status = fst_map_csv_read(bytes, size, &points);
     if (status == FST_OK)
         status = fst_map_points_arrange(&points, map);

@@ -13,9 +13,10 @@ const START = {
 };
 const RADIANS = Math.PI / 180, MARGIN = 1.04;
 
-/* How far the eye has to be, and how far up its target, so that circles about the axis just fill the picture: a point
- * that is u up, w towards the eye and v aside is seen where |u - shift| and |v|/aspect are below (distance - w) tan. */
-function fitHull(hull, elevation, tan, aspect) {
+/* How far the eye has to be, and how far up its target, so that circles about the axis just fill the picture below a
+ * `strip` at its top, a share of its height: a point that is u up, w towards the eye and v aside is seen where
+ * |u - shift| and |v|/aspect are below (distance - w) tan, and in the strip from 1 - 2 strip of that on. */
+function fitHull(hull, elevation, tan, aspect, strip) {
     let above = 0, below = 0, aside = 0;
     for (const [radius, z] of hull)
         for (let i = 0; i < 48; ++i) {
@@ -25,12 +26,14 @@ function fitHull(hull, elevation, tan, aspect) {
             below = Math.max(below, w * tan - u);
             aside = Math.max(aside, Math.abs(across) / aspect + w * tan);
         }
-    return { distance: (MARGIN * Math.max((above + below) / 2, aside)) / tan, shift: (above - below) / 2 };
+    const half = MARGIN * Math.max((above + below) / (2 - 2 * strip), aside);
+    return { distance: half / tan, shift: (above - below) / 2 + strip * half };
 }
 
 export class Camera {
     constructor() {
         this.chosen = "free";
+        this.strip = 0; /* of the picture's height, at its top, lies under words */
         this.flat = false; /* a flat view shows nothing from the side */
         this.places = structuredClone(START);
     }
@@ -71,7 +74,7 @@ export class Camera {
             a += Math.atan2(row[COLUMN.y], row[COLUMN.x]);
         const e = elevation * RADIANS, tan = Math.tan((fov * RADIANS) / 2), h = [Math.cos(a), Math.sin(a)];
         const up = [-h[0] * Math.sin(e), -h[1] * Math.sin(e), Math.cos(e)];
-        const fit = close ? { distance: (4.2 * eps) / tan / Math.min(1, aspect), shift: 0 } : fitHull(hull, e, tan, aspect);
+        const fit = close ? { distance: (4.2 * eps) / tan / Math.min(1, aspect), shift: 0 } : fitHull(hull, e, tan, aspect, this.strip);
         const target = close ? [row[COLUMN.x], row[COLUMN.y], row[COLUMN.z]] : up.map((v, i) => fit.shift * v + (middle[i] || 0)), distance = fit.distance / zoom;
         return {
             target, up,

@@ -3,7 +3,8 @@
 export const GROUND = { screen: "#141a22", paper: "#ffffff" };
 export const NORTH = "#d43d3d", SOUTH = "#3b6fd4";
 export const ARROWS = { moment: "#f2c230", field: "#7fd0ff", friction: "#ff8a5c", load: "#9be08a" };
-/* Lengths of arrows, in bead radii for one weight of the bead.  The magnet pulls the bead down with some twenty. */
-export const FRICTION = 1.2, LOAD = 0.12;
+/* Lengths of arrows, in bead radii for one weight of the bead.  The magnet pulls the bead down with some thirty, of which
+ * dry friction may be a fifth: its arrow stays in the picture of a camera that rides with the bead. */
+export const FRICTION = 0.4, LOAD = 0.12;
 /* The colours of several beads, as in figures (FST_COLOURS, style.c), and the dot of two that touch. */
 export const BEADS = ["#0072b2", "#d55e00", "#009e73", "#e69f00", "#cc79a7", "#56b4e9", "#882255", "#999933"], TOUCH = "#ffffff";

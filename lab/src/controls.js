@@ -84,7 +84,7 @@ export class Controls {
         const id = `p-${info.key.replace(/\W/g, "-")}`, [unit, factor] = SHOWN[info.unit] || ["", 1];
         const name = T.names[info.key] || info.key, label = element("label", { for: id, title: info.key }, name.replace(/ (?=\S\S?$)/, "\u00a0"));
         const error = element("p", { class: "error", id: `${id}-error`, role: "alert" });
-        const help = element("p", { class: "help", id: `${id}-help`, lang: "en" }, `${info.key}: ${info.doc}`); // the library's words
+        const help = element("p", { class: "help", id: `${id}-help`, ...(T.help[info.key] ? {} : { lang: "en" }) }, T.help[info.key] ?? `${info.key}: ${info.doc}`);
         const more = element("button", { type: "button", class: "more", "aria-label": say(T.about, { name }), "aria-expanded": "false", "aria-controls": `${id}-help` }, "?");
         help.hidden = true;
         more.addEventListener("click", () => {
@@ -126,12 +126,17 @@ export class Controls {
             this.show(from);
     }
 
-    /* The values as the library has them now; `texts` are as they were typed.  In a wave no magnet turns. */
+    /* The values as the library has them now; `texts` are as they were typed.  What does nothing is not
+     * offered: in a wave no magnet turns, and what floats rubs at no plate. */
     show(from, texts = this.texts || {}) {
-        const wave = this.core.get("drive.waveform") === "wave";
+        const wave = this.core.get("drive.waveform") === "wave", floats = this.core.get("plate.shape") === "none", hide = (key, when) => {
+            this.rows.get(key).box.hidden = when;
+        };
         this.texts = texts;
         this.rows.get("drive.frequency").label.textContent = wave ? T.waveFrequency : T.names["drive.frequency"];
-        this.rows.get("magnet.depth").box.hidden = wave;
+        hide("magnet.depth", wave || floats);
+        hide("friction.law", floats);
+        hide("friction.mu", floats || this.core.get("friction.law") !== "coulomb");
         for (const [key, row] of this.rows) {
             const { info, unit, factor } = row, value = this.core.value(key), said = this.core.get(key);
             if (row.field === document.activeElement && row.field.getAttribute("aria-invalid") === "true")
@@ -144,6 +149,8 @@ export class Controls {
             }
             row.field.value = shown(/[a-z]/i.test(texts[key] || "") ? texts[key] : (said === "" ? "" : `${plain(value * factor)}${unit && ` ${unit}`}`));
             row.field.placeholder = said !== "" ? "" : unit ? shown(`… ${unit}`) : T.notGiven;
+            if (row.slider)
+                row.slider.hidden = said === ""; // it would show a value that is not there
             if (row.slider && row.slider !== from && said !== "")
                 row.slider.value = String(value * factor);
         }

@@ -11,7 +11,7 @@ import { readTrajectory } from "./trajectory.js";
 /* Whether a table is a measured field, by the names of its columns, or a file that may be one. */
 const isMap = (name, text) => /\.(h5|hdf5|vt[kir])$/i.test(name) || /^.{0,80}(^|[,;\t"# ])b[ _]?x\b/im.test(text.slice(0, 4000));
 
-const SCENE = /\.ya?ml$/i, LONGEST_FILE = 20e6, FILM = /\.(webm|mp4|m4v|mov|avi|mkv|mpe?g|wmv|gif)$/i, DEGREES = 180 / Math.PI;
+const SCENE = /\.ya?ml$/i, LONGEST_FILE = 60e6, FILM = /\.(webm|mp4|m4v|mov|avi|mkv|mpe?g|wmv|gif)$/i, DEGREES = 180 / Math.PI;
 
 function save(name, blob) {
     const address = URL.createObjectURL(blob), link = element("a", { href: address, download: name });

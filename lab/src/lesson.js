@@ -10,7 +10,7 @@ export class Lesson {
         this.box = box;
         this.at = -1;
         /* On a narrow page the lesson stands below the picture, elsewhere above the controls. */
-        const narrow = window.matchMedia("(max-width: 700px)"), home = box.parentElement;
+        const narrow = (this.narrow = window.matchMedia("(max-width: 700px)")), home = box.parentElement;
         const settle = () => (narrow.matches ? document.getElementById("camera-help").after(box) : home.prepend(box));
         narrow.addEventListener("change", settle);
         settle();
@@ -45,8 +45,12 @@ export class Lesson {
         lab.hideTrail = true;
         lab.open({ scene: step.scene, view: { "ui.settle": String(step.settle ?? 0), ...step.view } });
         lab.play(false);
+        lab.panels.choosePlot("phi");
+        document.getElementById("view-box").scrollIntoView({ block: "nearest" }); /* a step before may have gone to the curves */
         document.body.classList.add("lesson-waits"); /* nothing tells the answer before it is given */
-        this.heading.focus({ preventScroll: false });
+        this.heading.focus({ preventScroll: true });
+        if (this.narrow.matches)
+            this.box.scrollIntoView(); /* right below the picture */
     }
 
     /* The words of the step as far as it has come. */

@@ -54,7 +54,7 @@ const FARTHEST = 3;
 export function hullOf(bodies, reach, eps, low = 0, high = 2 * eps) {
     const circles = bodies.flatMap(({ kind, centre, size, turn }) => {
         const edges = kind === "cuboid" ? size : kind === "cylinder" ? [size[0], size[0], size[1]] : [size[0], size[0], size[0]];
-        const diagonal = Math.hypot(...edges), [x, y, z] = turn ? [diagonal, diagonal, diagonal] : edges, far = (at, edge) => Math.abs(at) + edge / 2;
+        const diagonal = Math.hypot(...edges), [x, y, z] = turn && kind !== "sphere" ? [diagonal, diagonal, diagonal] : edges, far = (at, edge) => Math.abs(at) + edge / 2;
         const radius = kind === "cuboid" ? Math.hypot(far(centre[0], x), far(centre[1], y)) : Math.hypot(centre[0], centre[1]) + x / 2;
         return [1, -1].map((side) => [Math.min(FARTHEST, radius), Math.max(-FARTHEST, centre[2] + (side * z) / 2)]);
     });

@@ -16,7 +16,8 @@ import { recordingOf } from "./trajectory.js";
 import { View2D } from "./view2d.js";
 import { View3D } from "./view3d.js";
 
-const ROOM = 6000, RAMP_SECONDS = 5, RUN_DELAY = 350, TURNS = 7;
+const ROOM = 6000, RAMP_SECONDS = 5, RUN_DELAY = 350, TURNS = 7, STRIP = 30; /* pixels of the picture that lie under #live */
+const SWING = 2, ABOVE = 3.4; /* room of one that floats, in its radii: it swings, and the arrow of its moment is 3.2 long */
 /* What a motion on the page may take, so that a scene from outside leaves its buttons alive: ms of a frame, ms of the
  * turns that are not shown; rows, or seconds of the bead, between two looks at the clock. */
 const FRAME_MS = 60, SETTLE_MS = 4000, PIECE_ROWS = 16, PIECE_SECONDS = 0.05, MOST_ROWS = 4000, ROWS_A_TURN = 2 / SPACING;
@@ -86,6 +87,7 @@ export class Lab {
 
     resize() {
         const box = $("view-box");
+        this.camera.strip = STRIP / Math.max(box.clientHeight, 4 * STRIP);
         this.view.resize(box.clientWidth, box.clientHeight, window.devicePixelRatio || 1);
         this.draw(); /* at once: the new size has emptied the canvas */
     }
@@ -122,7 +124,7 @@ export class Lab {
             return [[14 * most, 0]];
         const far = Math.max(...this.rows.map((row) => Math.hypot(row[COLUMN.x], row[COLUMN.y]))), heights = this.rows.map((row) => row[COLUMN.z]);
         if (this.core.get("plate.shape") === "none")
-            return hullOf(bodies, far + most, most, Math.min(...heights) - most, Math.max(...heights) + most);
+            return hullOf(bodies, far + most, most, Math.min(...heights) - SWING * most, Math.max(...heights) + ABOVE * most);
         return hullOf(bodies, Math.max(1.2, 1.25 * far), most);
     }
 
@@ -334,6 +336,16 @@ export class Lab {
         return this.row[COLUMN.time] - before;
     }
 
+    /* Show another time of what is recorded, with the trail that leads there. */
+    seek(time) {
+        const { recording } = this, first = time - this.settings.turns / this.driveFrequency();
+        recording.at = Math.max(0, recording.samples.findLastIndex((sample) => sample[COLUMN.time] <= first));
+        this.clearTrails();
+        this.takeRows(recording.rows(recording.at).map((row) => row.slice()));
+        this.advanceRecorded(time - this.row[COLUMN.time]);
+        this.wake();
+    }
+
     atRecordedEnd() {
         return this.recording?.done && this.row[COLUMN.time] >= this.recording.end;
     }
@@ -457,6 +469,7 @@ export class Lab {
         this.waiting = true; /* for what a run says of the parameters */
         $("regime").textContent = T.wait;
         this.timer = setTimeout(() => this.runNow(), RUN_DELAY);
+        this.panels.markPreset();
         this.panels.forgetSweep(JSON.stringify({ ...this.scene, "drive.frequency": 0, "drive.omega": 0 }));
     }
 

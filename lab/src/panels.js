@@ -47,6 +47,8 @@ export class Panels {
         $("play").addEventListener("click", () => lab.play(!lab.playing));
         $("step").addEventListener("click", () => lab.step());
         $("restart").addEventListener("click", () => lab.restart());
+        $("time").addEventListener("input", () => lab.seek(Number($("time").value)));
+        document.querySelector("header").hidden = isOneOfTwo();
         $("lesson-open").addEventListener("click", () => lab.lesson.toggle());
         $("slow").max = String(this.slows.length - 1);
         $("slow").addEventListener("input", () => {
@@ -79,7 +81,7 @@ export class Panels {
             "view-name": T.view, "all-name": T.parameters, "files-name": T.files, keys: T.keys, "why-name": T.details,
         }))
             $(id).textContent = text;
-        for (const [id, text] of Object.entries({ language: T.language, slow: T.slow, cameras: T.view, stage: T.stage, controls: T.controls, view: T.viewLabel }))
+        for (const [id, text] of Object.entries({ language: T.language, slow: T.slow, cameras: T.view, stage: T.stage, controls: T.controls, view: T.viewLabel, time: T.recordedTime }))
             $(id).setAttribute("aria-label", text);
         $("cameras").replaceChildren();
         $("presets").replaceChildren();
@@ -98,6 +100,7 @@ export class Panels {
             });
             $("presets").append(button);
         }
+        this.markPreset();
         this.buildView();
         this.buildPlots();
         this.nameScreen();
@@ -105,6 +108,12 @@ export class Panels {
             $("regime").textContent = T.wait;
         else if (this.result)
             this.showRun(this.result);
+    }
+
+    /* Which experiment is open, as long as nothing of it is changed. */
+    markPreset() {
+        const open = JSON.stringify(this.lab.scene);
+        [...$("presets").children].forEach((button, i) => button.setAttribute("aria-pressed", String(JSON.stringify(PRESETS[i].scene) === open)));
     }
 
     /* The picture with its controls on the whole screen, where the browser lets a page have it. */
@@ -316,6 +325,7 @@ export class Panels {
 
     showLive() {
         const { lab } = this, row = lab.row;
+        this.showTime(lab.recording);
         const text = lab.ramping ? say(T.rampOn, { f: shown(lab.frequency().toFixed(2)) }) : `${digits(lab.frequency(), 4)} Hz`;
         const rings = lab.core.get("plate.shape") === "none" || lab.core.get("drive.waveform") === "wave" ? "" : ` · ${T.ring}`;
         $("live").textContent = `${text} · ${say(T.live, { turns: shown(row[COLUMN.turns].toFixed(1)), seconds: shown(row[COLUMN.time].toFixed(2)) })}${rings}`;
@@ -342,6 +352,17 @@ export class Panels {
         }
         const [from, to] = T.ends[lab.settings.colour] ?? [say(T.pair, { name: T.quantities[lab.settings.colour], value: digits(range[0], 3) }), `${digits(range[1], 3)}${unit && ` ${unit}`}`];
         $("legend").replaceChildren(...arrows, element("span", {}, from, bar, to));
+    }
+
+    /* The time of what is recorded, which may be moved. */
+    showTime(recording) {
+        const slider = $("time");
+        slider.hidden = !recording;
+        if (!recording)
+            return;
+        slider.max = String(recording.end);
+        slider.value = String(this.lab.row[COLUMN.time]);
+        slider.setAttribute("aria-valuetext", `${digits(this.lab.row[COLUMN.time], 3)} s`);
     }
 
     drawPhi() {
@@ -441,6 +462,12 @@ export class Panels {
         }
         const { lab } = this, mm = 1e3 * result.groups.length_unit_m, hertz = 1 / (2 * Math.PI * result.groups.time_unit_s);
         this.result = result;
+        if (lab.ramping) { // a run knows only the speed from which it began
+            $("regime").textContent = T.ramping;
+            this.showWhy();
+            this.fill([]);
+            return;
+        }
         const ratio = result.mean_alpha_dot ? Math.abs(result.omega / result.mean_alpha_dot) : null;
         /* Where the symmetry is not known, there are N festoons or 2 N. */
         const unknown = result.festoons === null && result.regime.endsWith("rotating") && ratio !== null;

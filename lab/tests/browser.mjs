@@ -13,7 +13,7 @@ import { goldenHashes } from "./golden.mjs";
 
 const { FESTOON, SOURCE_DIR, BUILD_DIR, CHROMIUM, PICTURES } = process.env;
 const PAGE = `file://${join(BUILD_DIR, "festoon-lab.html")}`, AXE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
-const SIZES = { wide: { width: 1000, height: 800 }, narrow: { width: 390, height: 844, isMobile: true, hasTouch: true } };
+const SIZES = { wide: { width: 1000, height: 800 }, narrow: { width: 360, height: 640, isMobile: true, hasTouch: true } };
 const scratch = mkdtempSync(join(tmpdir(), "festoon-lab-"));
 const browser = await puppeteer.launch({
     executablePath: CHROMIUM, headless: true, userDataDir: join(scratch, "profile"), protocolTimeout: 600000,
@@ -101,7 +101,7 @@ const noSidewaysScroll = async (page) => assert.ok(await page.evaluate(() => doc
 async function nothingOverlaps(page, where) {
     await noSidewaysScroll(page);
     const bad = await page.evaluate(() => {
-        const shown = [...document.querySelectorAll("button, label, select, dt, dd, summary, legend, h1, h2, input, output")].filter((element) => element.checkVisibility() && !element.closest("#all-controls label"));
+        const shown = [...document.querySelectorAll("button, label, select, dt, dd, summary, legend, h1, h2, input, output")].filter((element) => element.checkVisibility());
         const name = (element) => `${element.id || element.tagName} "${element.textContent.slice(0, 40)}"`;
         const cut = shown.filter((element) => element.tagName !== "INPUT" && element.scrollWidth > element.clientWidth + 1 && element.clientWidth > 0).map((element) => `cut: ${name(element)}`);
         const inView = document.getElementById("view-box").getBoundingClientRect();
@@ -223,6 +223,13 @@ const tests = {
             for (const summary of await page.$$("#all-controls summary"))
                 await summary.evaluate((element) => element.click());
             await noSidewaysScroll(page);
+            const seen = await page.evaluate(() => {
+                document.getElementById("files").scrollIntoView();
+                window.festoonLab.lab.tell("x is bad", true);
+                const box = (id) => document.getElementById(id).getBoundingClientRect(), [view, files, notice] = ["view-box", "files", "notice"].map(box);
+                return { view: view.top >= 0 && view.bottom <= files.top, notice: notice.top >= 0 && notice.bottom > 0 };
+            });
+            assert.deepEqual(seen, { view: name === "narrow", notice: true }, "on a phone the picture stays above the controls, and news are seen everywhere");
             await close(page);
         }
     },
@@ -235,11 +242,14 @@ const tests = {
                 assert.equal(await page.evaluate(() => window.festoonLab.lab.playing), false, "nothing moves before the answer");
                 assert.equal(await page.$("#lesson .explain"), null);
                 assert.equal(await page.$eval("#regime", (text) => getComputedStyle(text).visibility), "hidden", "nothing tells the answer");
+                const places = await page.evaluate(() => ["view-box", "lesson"].map((id) => document.getElementById(id).getBoundingClientRect()).map(({ top, bottom }) => [top, bottom]));
+                assert.ok(places[0][0] >= 0 && places[0][1] <= size.height && places[1][0] < size.height / 2, `${name} ${step}: picture and question are on the screen: ${places}`);
+                assert.equal(await page.evaluate(() => window.festoonLab.lab.panels.plot), "phi");
                 await picture(page, `${name}-lesson-${step}-question`);
                 await click(page, "#lesson .answers button:last-child");
                 assert.equal(await page.evaluate(() => window.festoonLab.lab.playing), true);
                 if (step === 5)
-                    assert.ok(await page.$eval("#plot", (plot) => plot.getBoundingClientRect().top > 0 && plot.getBoundingClientRect().bottom <= window.innerHeight), "the curve is on the screen");
+                    assert.ok(await page.$eval("#plot", (plot) => plot.getBoundingClientRect().top > document.getElementById("view-box").getBoundingClientRect().bottom && plot.getBoundingClientRect().bottom <= window.innerHeight), "the curve is on the screen");
                 await click(page, "#lesson .strong");
                 assert.ok((await page.$eval("#lesson .explain", (text) => text.textContent)).length > 100);
                 await described(page);
@@ -349,6 +359,8 @@ const tests = {
             lab.advance(1);
             return lab.row[COLUMN.alpha] - start;
         });
+        await page.waitForFunction(() => /^The speed of the magnet changes/.test(document.getElementById("regime").textContent), { timeout: 0 });
+        assert.deepEqual(await page.evaluate(() => [document.getElementById("numbers").textContent, document.getElementById("why").hidden]), ["", true], "nothing is said of the speed that it has left");
         assert.ok(before > 30, "at first it goes with the magnet");
         const after = await page.evaluate(() => {
             const { lab } = window.festoonLab;
@@ -360,6 +372,7 @@ const tests = {
         });
         assert.ok(after.turned < -15, "in the end it goes against it");
         assert.ok(Math.abs(after.frequency - 9.6) < 1e-6 && !after.ramping);
+        await page.waitForFunction(() => /^Counter-rotating/.test(document.getElementById("regime").textContent), { timeout: 0 });
         await close(page);
     },
     async "axe has no complaint, in light and dark"() {
@@ -500,7 +513,7 @@ const tests = {
             });
             const before = await state();
             assert.match(await drop(page, ["hole.csv", map.replace(/^.*\n/gm, (line, at) => (at > 9000 && at < 9040 ? "" : line))]), /^hole\.csv: the map has a hole/);
-            assert.match(await drop(page, ["map.h5", "x"]), /^map\.h5: this page reads maps from tables/);
+            assert.match(await drop(page, ["map.h5", "x"]), /^map\.h5: this page reads tables .*: festoon run --csv makes one of a motion, festoon field --csv one of a field$/);
             assert.match(await drop(page, ["high.csv", map.replaceAll(",18.7,", ",20,")]), /^high\.csv: magnet\.file: the bead's centre moves 18\.7 mm .* taken at 20 mm/);
             assert.deepEqual(await state(), before, "nothing has changed");
             assert.match(await drop(page, ["measured-map.csv", map]), /^measured-map\.csv is the magnet now\. The map of magnet\.file has a curl of 0\.\d+: smoothing fits a field without curl\.$/);
@@ -564,6 +577,13 @@ const tests = {
         assert.deepEqual([(await state()).samples, (await state()).f], [lines.length - 1, 14.5]);
         await click(page, "#restart");
         await page.evaluate(() => window.festoonLab.lab.advance(100));
+        await page.$eval("#time", (slider) => {
+            slider.value = slider.max / 2;
+            slider.dispatchEvent(new Event("input", { bubbles: true }));
+        });
+        const middle = await page.evaluate(() => [window.festoonLab.lab.row[0], window.festoonLab.lab.trail.samples[0][0]]), turn = 1 / 14.5;
+        assert.ok(Math.abs(middle[0] - Number(lines.at(-1)[0]) / 2) < 1e-12 && middle[1] < turn, `its time is moved, with a trail before: ${middle}`);
+        await page.evaluate(() => window.festoonLab.lab.advance(100));
         const place = (name) => lines[0].findIndex((head) => head.split(" ")[0] === name), last = lines.at(-1), end = await state();
         assert.ok(Math.abs(end.time - Number(last[0])) < 1e-12 && Math.abs(end.x * end.radius - Number(last[place("x")])) < 1e-9, JSON.stringify(end));
         assert.ok(await coloursOfView(page) > 12);
@@ -571,6 +591,11 @@ const tests = {
         await described(page);
         await type(page, "#p-drive-frequency", "15 Hz");
         assert.deepEqual(await page.evaluate(() => [window.festoonLab.lab.recording, window.festoonLab.lab.row[0]]), [null, 0]);
+        assert.equal(await page.$eval("#time", (slider) => slider.hidden), true);
+        festoon("run", "--csv", join(scratch, "usual.csv")); /* as large as a run is that nobody has shortened */
+        await (await page.$("#open")).uploadFile(join(scratch, "usual.csv"));
+        await page.waitForFunction(() => /^usual\.csv/.test(document.getElementById("notice").textContent), { timeout: 0 });
+        assert.match(await page.$eval("#notice", (notice) => notice.textContent), /is played as it was recorded/);
         await drop("two.csv", csv("drive.frequency=30Hz", "beads[0].start.phi=3deg", "beads[1].start.phi=40deg", "run.periods=6", "run.discard=1"));
         assert.equal((await state()).rows, 2);
         const kept = () => page.evaluate(() => {
@@ -680,6 +705,7 @@ const tests = {
             }), [true, true]);
             await page.waitForFunction(() => [0, 1].every((i) => window.frames[i].festoonLab.lab.trail.count > 20), { timeout: 0 });
             await noSidewaysScroll(page);
+            assert.equal(await left.$eval("header", (header) => header.checkVisibility()), false);
             await picture(page, `${name}-beside`);
             await click(page, "#beside-close");
             await page.waitForFunction(() => window.festoonLab.lab.playing, { timeout: 0 });
@@ -903,7 +929,30 @@ const tests = {
         await page.waitForFunction(() => /velocity/.test(document.getElementById("numbers").textContent), { timeout: 0 });
         const [name, depth, , rows] = await words();
         assert.deepEqual([name, depth, rows], ["Frequency of the wave", false, ["mean velocity along the wave"]], "nothing of a magnet that turns, nor of its axis");
+        const offered = () => page.evaluate(() => ["friction-law", "friction-mu", "magnet-depth"].map((key) => document.getElementById(`p-${key}`).checkVisibility()));
+        const pressed = () => page.$$eval("#presets [aria-pressed=true]", (all) => all.map((button) => button.dataset.preset).join());
+        assert.equal(await pressed(), "wave");
+        await click(page, "[data-preset=levitation]");
+        assert.deepEqual(await offered(), [false, false, false], "what floats has no friction and no plate");
+        assert.equal(await page.$eval("#p-model-kappa ~ input, .row:has(#p-model-kappa) input[type=range]", (slider) => slider.hidden), true, "no slider where there is no value");
+        await page.waitForFunction(() => window.festoonLab.lab.recording.done, { timeout: 0 });
+        const tops = await page.evaluate(() => {
+            const { lab } = window.festoonLab, { eye } = lab.view, box = document.getElementById("view-box").getBoundingClientRect(), label = document.getElementById("live").getBoundingClientRect().bottom;
+            lab.draw();
+            eye.updateMatrixWorld();
+            const radius = lab.groups.eps, at = (row) => new eye.position.constructor(row[3], row[4], row[35] + radius).project(eye).y;
+            return [box.top + (box.height * (1 - Math.max(...lab.recording.samples.map(at)))) / 2, label];
+        });
+        assert.ok(tops[0] > tops[1], `at no time it leaves the picture, or hides under the words: ${tops}`);
+        await click(page, "[data-preset=four]");
+        assert.deepEqual(await offered(), [true, false, true], "dry friction alone has a coefficient");
+        await type(page, "#p-magnet-depth", "17 mm");
+        assert.equal(await pressed(), "");
         await click(page, "[data-preset=dry]");
+        assert.deepEqual(await offered(), [true, true, true]);
+        await page.evaluate(() => document.querySelectorAll("#main-controls .more").forEach((more) => more.click()));
+        const helps = await page.$$eval("#main-controls .help", (all) => all.map((help) => [help.textContent, help.lang]));
+        assert.ok(helps.length === 6 && helps.every(([text, lang]) => lang === "" && !/\b[a-z]+\.[a-z_]+:|gamma|mu B0/.test(text)), "its main controls are explained without names of the program");
         await page.waitForFunction(() => /festoons/.test(document.getElementById("numbers").textContent) && /sticks/.test(document.getElementById("legend").textContent), { timeout: 0 });
         assert.deepEqual((await words()).slice(0, 3), ["Speed of the magnet", true, "frictionslipssticks"]);
         await close(page);

@@ -153,7 +153,7 @@ export default {
         mapHole: "das gemessene Feld hat ein Loch: Die {n} Messpunkte füllen ein Gitter von {grid} bis auf {holes} seiner Plätze, und keiner liegt bei {place}",
         mapTwice: "dieser Messpunkt bei {place} ist zweimal da: zuerst in Zeile {n}",
         mapAway: "die Seite hat das gemessene Feld {file} noch nicht: seine Datei hierher ziehen",
-        mapFormat: "diese Seite liest gemessene Felder aus Tabellen (.csv, .txt), nicht aus HDF5 oder VTK: festoon field --csv macht aus jedem eine Tabelle",
+        mapFormat: "diese Seite liest Tabellen (.csv, .txt), nicht HDF5 oder VTK: festoon run --csv macht eine aus einer Bewegung, festoon field --csv eine aus einem Feld",
         mapCurl: "das gemessene Feld in magnet.file hat eine Rotation von {n}: Das Feld eines Magneten hat keine: viel Rauschen, oder sind Spalten oder Achsen vertauscht?",
         mapCurlLittle: "das gemessene Feld in magnet.file hat eine Rotation von {n}: Glätten passt ein Feld ohne Rotation an",
         mapEmpty: "dieses gemessene Feld hat keine Messpunkte",

@@ -167,7 +167,7 @@ export default {
         mapHole: "the map has a hole: the {n} samples fill a grid of {grid} but for {holes} of its places, and there is none at {place}",
         mapTwice: "this sample at {place} is there twice: first as line {n}",
         mapAway: "the page does not have the map {file} yet: drop its file here",
-        mapFormat: "this page reads maps from tables (.csv, .txt), not from HDF5 or VTK: festoon field --csv makes a table of any map",
+        mapFormat: "this page reads tables (.csv, .txt), not HDF5 or VTK: festoon run --csv makes one of a motion, festoon field --csv one of a field",
         mapCurl: "the map of magnet.file has a curl of {n}: a magnet's field has none: much noise, or columns or axes exchanged?",
         mapCurlLittle: "the map of magnet.file has a curl of {n}: smoothing fits a field without curl",
         mapEmpty: "this map has no samples",

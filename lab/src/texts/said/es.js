@@ -153,7 +153,7 @@ export default {
         mapHole: "el mapa tiene un hueco: los {n} puntos llenan una rejilla de {grid} salvo {holes} de sus sitios, y no hay ninguno en {place}",
         mapTwice: "este punto en {place} está dos veces: primero en la línea {n}",
         mapAway: "la página aún no tiene el mapa {file}: arrastra aquí su archivo",
-        mapFormat: "esta página lee mapas de tablas (.csv, .txt), no de HDF5 ni de VTK: festoon field --csv hace una tabla de cualquier mapa",
+        mapFormat: "esta página lee tablas (.csv, .txt), no HDF5 ni VTK: festoon run --csv hace una de un movimiento, festoon field --csv de un campo",
         mapCurl: "el mapa de magnet.file tiene un rotacional de {n}: el campo de un imán no lo tiene: ¿mucho ruido, o columnas o ejes intercambiados?",
         mapCurlLittle: "el mapa de magnet.file tiene un rotacional de {n}: un suavizado ajusta un campo sin rotacional",
         mapEmpty: "este mapa no tiene puntos",

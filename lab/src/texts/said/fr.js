@@ -153,7 +153,7 @@ export default {
         mapHole: "la carte a un trou : les {n} points remplissent une grille de {grid} sauf {holes} de ses places, et il n’y en a pas à {place}",
         mapTwice: "ce point à {place} est là deux fois : d’abord à la ligne {n}",
         mapAway: "la page n’a pas encore la carte {file} : glissez son fichier ici",
-        mapFormat: "cette page lit les cartes de tableaux (.csv, .txt), pas de HDF5 ni de VTK : festoon field --csv fait un tableau de toute carte",
+        mapFormat: "cette page lit des tableaux (.csv, .txt), pas de HDF5 ni de VTK : festoon run --csv en fait un d’un mouvement, festoon field --csv d’un champ",
         mapCurl: "la carte de magnet.file a un rotationnel de {n} : le champ d’un aimant n’en a pas : beaucoup de bruit, ou colonnes ou axes échangés ?",
         mapCurlLittle: "la carte de magnet.file a un rotationnel de {n} : un lissage ajuste un champ sans rotationnel",
         mapEmpty: "cette carte n’a aucun point",

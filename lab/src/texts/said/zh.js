@@ -153,7 +153,7 @@ export default {
         mapHole: "实测磁场图有空缺：{n} 个点填满 {grid} 的网格，只差其中 {holes} 处，{place} 处没有点",
         mapTwice: "{place} 处的这个点出现了两次：先在第 {n} 行",
         mapAway: "本页还没有实测磁场图 {file}：请把文件拖到这里",
-        mapFormat: "本页只从表格（.csv、.txt）读取实测磁场图，不读 HDF5 或 VTK：festoon field --csv 可把任何一种转成表格",
+        mapFormat: "本页只读表格（.csv、.txt），不读 HDF5 或 VTK：festoon run --csv 把运动写成表格，festoon field --csv 把磁场写成表格",
         mapCurl: "magnet.file 的实测磁场图的旋度为 {n}：磁铁的磁场没有旋度：是噪声很大，还是列或坐标轴弄反了？",
         mapCurlLittle: "magnet.file 的实测磁场图的旋度为 {n}：平滑可拟合无旋的磁场",
         mapEmpty: "这个实测磁场图没有点",
