@@ -359,7 +359,8 @@ const tests = {
             lab.advance(1);
             return lab.row[COLUMN.alpha] - start;
         });
-        await page.waitForFunction(() => /^The speed of the magnet changes/.test(document.getElementById("regime").textContent), { timeout: 0 });
+        await described(page);
+        assert.match(await page.$eval("#regime", (text) => text.textContent), /^The speed of the magnet changes/);
         assert.deepEqual(await page.evaluate(() => [document.getElementById("numbers").textContent, document.getElementById("why").hidden]), ["", true], "nothing is said of the speed that it has left");
         assert.ok(before > 30, "at first it goes with the magnet");
         const after = await page.evaluate(() => {
