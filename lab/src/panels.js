@@ -68,6 +68,7 @@ export class Panels {
                 this.sweep();
         });
         new ResizeObserver(() => this.frame(Infinity)).observe($("plot-box"));
+        new ResizeObserver(() => document.documentElement.style.setProperty("--news", `${Math.ceil($("notice").getBoundingClientRect().height)}px`)).observe($("notice"));
     }
 
     /* All words, in the language that is spoken now. */

@@ -223,13 +223,14 @@ const tests = {
             for (const summary of await page.$$("#all-controls summary"))
                 await summary.evaluate((element) => element.click());
             await noSidewaysScroll(page);
-            const seen = await page.evaluate(() => {
-                document.getElementById("files").scrollIntoView();
+            const seen = await page.evaluate(async () => {
                 window.festoonLab.lab.tell("x is bad", true);
+                await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
+                document.getElementById("files").scrollIntoView();
                 const box = (id) => document.getElementById(id).getBoundingClientRect(), [view, files, notice] = ["view-box", "files", "notice"].map(box);
-                return { view: view.top >= 0 && view.bottom <= files.top, notice: notice.top >= 0 && notice.bottom > 0 };
+                return { view: view.top >= notice.bottom && view.bottom <= files.top, notice: notice.top >= 0 && notice.bottom > 0, boxes: [notice.bottom, view.top, view.bottom, files.top].join() };
             });
-            assert.deepEqual(seen, { view: name === "narrow", notice: true }, "on a phone the picture stays above the controls, and news are seen everywhere");
+            assert.deepEqual([seen.view, seen.notice], [name === "narrow", true], `${seen.boxes}: on a phone the picture stays above the controls, and news are seen everywhere`);
             await close(page);
         }
     },
