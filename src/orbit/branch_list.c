@@ -78,18 +78,19 @@ static int lies_between(double a, double b, double x, double value, double least
     return fabs(a + x * (b - a) - value) < least + 0.25 * fabs(b - a);
 }
 
-int fst_branch_of_orbit(const fst_branch *out, const fst_branch_point *seen)
+int fst_branch_of_orbit(const fst_branch *out, const fst_branch_point *seen, int has_s2)
 {
     for (size_t i = 0; i + 1 < out->point_count; ++i) {
         const fst_branch_point *a = &out->points[i], *b = a + 1;
-        if (a->branch != b->branch || a->multipliers != seen->multipliers || a->symmetry != seen->symmetry ||
-            (a->value > seen->value) == (b->value > seen->value))
-            continue;
         const double x = (seen->value - a->value) / (b->value - a->value);
+        if (a->branch != b->branch || a->multipliers != seen->multipliers || a->symmetry != seen->symmetry ||
+            !(x >= 0.0 && x <= 1.0))
+            continue;
         if (lies_between(a->mean_r, b->mean_r, x, seen->mean_r, 2e-3) &&
             lies_between(a->min_r, b->min_r, x, seen->min_r, 2e-2) &&
             lies_between(a->period, b->period, x, seen->period, 2e-3 * seen->period) &&
-            lies_between(fabs(a->mean_nz), fabs(b->mean_nz), x, fabs(seen->mean_nz), 5e-3))
+            (lies_between(a->mean_nz, b->mean_nz, x, seen->mean_nz, 5e-3) ||
+             (has_s2 && lies_between(a->mean_nz, b->mean_nz, x, -seen->mean_nz, 5e-3))))
             return a->branch;
     }
     return -1;

@@ -16,8 +16,9 @@ void fst_branch_reverse(fst_branch *out, size_t first);
 /* Whether a special point is in the list already: met again on a curve that closes, or on a conjugate. */
 int fst_branch_has_special(const fst_branch *out, const fst_special *special, double scale);
 
-/* The branch on which an orbit lies, by its numbers, for its first state may be any; -1: on none. */
-int fst_branch_of_orbit(const fst_branch *out, const fst_branch_point *seen);
+/* The branch on which an orbit lies, by its numbers, for its first state may be any; -1: on none.  With S2 its image counts
+ * as the same orbit. */
+int fst_branch_of_orbit(const fst_branch *out, const fst_branch_point *seen, int has_s2);
 
 /* The branch on which an equilibrium lies, the nearest if there are several; -1: on none. */
 int fst_branch_of_state(const fst_branch *out, double value, const double *state);

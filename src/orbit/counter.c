@@ -1,4 +1,13 @@
-/* counter.c - the family of counter-rotating orbits. */
+/* counter.c - the family of counter-rotating orbits.
+ *
+ * Under a magnet with the symmetry S2 the orbits without it come in pairs, images of each other, born at pitchforks
+ * of symmetric ones: one branch leads to all.  Under a magnet without it a pitchfork falls apart: one branch passes,
+ * and two that meet at a fold are connected with it by no curve.  Images of the first, which are nearly orbits, lead to
+ * them, and so may runs at other values.
+ *
+ *       with S2:   __________o/----       without:   __________/----
+ *                             \____                            (____
+ */
 #include "orbit/tracer.h"
 
 #include <stdio.h>
@@ -71,29 +80,31 @@ static void climb_to_symmetric(fst_tracer *t, fst_node *start)
     }
 }
 
-/* The first orbit found, and after it a symmetric one if there is any.  Other families branch off the symmetric
- * one; the first is kept in case it lies on none of these.  If no symmetric one is found, the one on which the
- * first orbit's curve ends takes its place.  `end`: where this part of the work ends. */
-static fst_status first_orbits(fst_tracer *t, double end, fst_node start[2], int *count, fst_error *error)
+/* Of a magnet with S2: the first orbit found, and after it a symmetric one if there is any.  Other families branch off
+ * the symmetric one; the first is kept in case it lies on none of these.  If no symmetric one is found, the one on which
+ * the first orbit's curve ends takes its place.  Of another magnet: every orbit found.  `end`: where this part of the
+ * work ends. */
+enum { TRIALS = 8, STARTS = TRIALS + 1 };
+static fst_status first_orbits(fst_tracer *t, double end, fst_node start[STARTS], int *count, fst_error *error)
 {
-    enum { TRIALS = 8 };
     static const double part[TRIALS] = {0.5, 0.25, 0.1, 0.75, 0.35, 0.05, 0.9, 0.02};
     const double lo = fmin(t->options->from, t->options->to), hi = fmax(t->options->from, t->options->to);
     const double given = fst_family_value(&t->family);
+    const int most = t->family.has_s2 ? 2 : STARTS;
     fst_error why;
     memset(&why, 0, sizeof why);
     *count = 0;
-    for (int i = -1; i < TRIALS && *count < 2 && t->watch.status == FST_OK; ++i) {
+    for (int i = -1; i < TRIALS && *count < most && t->watch.status == FST_OK; ++i) {
         const double value = i < 0 ? given : lo + (hi - lo) * part[i];
         fst_watch_part(&t->watch, end * (i + 1) / (TRIALS + 1), end * (i + 2) / (TRIALS + 1));
         if (!(value >= lo && value <= hi) || !search_at(t, value, &start[*count], &why))
             continue;
-        if (start[*count].s.symmetric || *count == 0)
+        if (start[*count].s.symmetric || *count == 0 || !t->family.has_s2)
             *count += 1;
         if (start[*count - 1].s.symmetric)
             return fst_watch_ask(&t->watch, error);
     }
-    if (*count > 0)
+    if (*count > 0 && t->family.has_s2)
         climb_to_symmetric(t, start);
     const fst_status status = fst_watch_ask(&t->watch, error);
     if (*count > 0 || status != FST_OK)
@@ -105,19 +116,61 @@ static fst_status first_orbits(fst_tracer *t, double end, fst_node start[2], int
         lo, hi, why.sentence);
 }
 
+static fst_status follow_from(fst_tracer *t, const fst_node *start, fst_error *error)
+{
+    if (fst_branch_of_orbit(t->out, &start->seen, t->family.has_s2) >= 0)
+        return FST_OK;
+    const fst_status status = fst_tracer_add(t, start, error);
+    return status == FST_OK ? fst_tracer_run(t, error) : status;
+}
+
+/* The orbit of the magnet, which has not S2, beside the image of one. */
+static int orbit_beside_image(const fst_tracer *t, const fst_branch_point *of, fst_node *node)
+{
+    fst_solution s;
+    fst_error ignored;
+    memset(&s, 0, sizeof s);
+    s.value = of->value;
+    s.period = of->period;
+    fst_apply_s2(of->state, s.y[0]);
+    return of->turns < 0 && fst_solution_chain(&t->family, &s, 2, &ignored) == FST_OK &&
+           fst_solution_correct(&t->family, &s, NULL, &ignored) == FST_OK &&
+           fst_node_make(&t->family, &s, node, &ignored) == FST_OK && node->seen.turns < 0;
+}
+
+/* Follow branches that images lead to, of some points of each branch that was not born on another; the new ones have
+ * images too. */
+static fst_status follow_images(fst_tracer *t, fst_error *error)
+{
+    enum { TRIED = 8 };
+    fst_status status = FST_OK;
+    for (size_t e = 0; e < t->out->end_count && t->branch_count < FST_PENDING && status == FST_OK; ++e) {
+        const fst_branch_end end = t->out->ends[e];
+        size_t first = 0, count = 0;
+        for (size_t i = 0; i < t->out->point_count; ++i)
+            if (t->out->points[i].branch == end.branch && count++ == 0)
+                first = i;
+        const int again = e > 0 && t->out->ends[e - 1].branch == end.branch;
+        for (size_t k = 0; k < TRIED && end.family < 0 && !again && status == FST_OK; ++k) {
+            fst_node node;
+            const fst_branch_point at = t->out->points[first + (2 * k + 1) * count / (2 * TRIED)];
+            if (orbit_beside_image(t, &at, &node))
+                status = follow_from(t, &node, error);
+            if (status == FST_OK)
+                status = fst_watch_ask(&t->watch, error);
+        }
+    }
+    return status;
+}
+
 fst_status fst_follow_counter(fst_tracer *t, fst_error *error)
 {
-    fst_node start[2];
+    fst_node start[STARTS];
     int count;
     const double end = t->watch.share[1], searching = 0.1 * end;
     fst_status status = first_orbits(t, searching, start, &count, error);
     fst_watch_part(&t->watch, searching, end);
-    for (int i = count - 1; i >= 0 && status == FST_OK; --i) {
-        if (fst_branch_of_orbit(t->out, &start[i].seen) >= 0)
-            continue;
-        status = fst_tracer_add(t, &start[i], error);
-        if (status == FST_OK)
-            status = fst_tracer_run(t, error);
-    }
-    return status;
+    for (int i = 0; i < count && status == FST_OK; ++i)
+        status = follow_from(t, &start[t->family.has_s2 ? count - 1 - i : i], error);
+    return status == FST_OK && !t->family.has_s2 ? follow_images(t, error) : status;
 }

@@ -215,6 +215,7 @@ fst_status fst_family_begin_in_world(fst_family *family, const fst_params *param
             return status;
         const fst_groups groups = fst_model_groups(model);
         const double value = value_in(family, key, &groups);
+        family->has_s2 = model->has_s2;
         fst_model_free(model);
         if (isfinite(value)) {
             char text[32];

@@ -26,6 +26,7 @@ typedef struct fst_family {
     fst_watch *watch;             /* NULL: no reports, and the work cannot be stopped */
     const struct fst_setup *made; /* a setup that was made already, of the value `made_at` (NULL: none) */
     double made_at;
+    int has_s2; /* where a parameter is free: whether S2 maps the magnet onto itself */
 } fst_family;
 
 /* One of them: the world, and two neighbours for the derivative by the parameter.  The drive's omega and its

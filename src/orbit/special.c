@@ -87,9 +87,10 @@ static int becomes_its_image(const fst_node *a, const fst_node *b)
 }
 
 /* Whether a curve of orbits without the symmetry passes through one that has it. */
-static int meets_symmetric(const fst_node *a, const fst_node *b)
+static int meets_symmetric(const fst_family *family, const fst_node *a, const fst_node *b)
 {
-    return a->s.segments >= 2 && !a->s.symmetric && a->seen.turns != 0 && becomes_its_image(a, b);
+    return family->has_s2 && a->s.segments >= 2 && !a->s.symmetric && a->seen.turns != 0 &&
+           becomes_its_image(a, b);
 }
 
 /* Whether it is an equilibrium that S2 maps onto itself, on the axis: there the symmetry can break.  Elsewhere
@@ -260,7 +261,7 @@ static fst_status report_turn(const interval *i, fst_error *error)
     fst_node at;
     fst_error why;
     const double frequency = FST_TWO_PI / fst_whole_period(&b->s);
-    if (meets_symmetric(a, b)) {
+    if (meets_symmetric(i->family, a, b)) {
         fst_curve_end_set(i->end, FST_END_SYMMETRIC_ORBIT, "it ends on the symmetric branch near %.6g",
                           b->s.value);
         return FST_OK;

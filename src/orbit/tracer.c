@@ -65,8 +65,9 @@ static fst_status take_special(void *user, fst_special_type type, const fst_node
  * it. */
 static int was_met(fst_tracer *t, const fst_pending *from)
 {
-    const int met =
-        from->start.s.segments > 0 && from->one_way ? fst_branch_of_orbit(t->out, &from->start.seen) : -1;
+    const int met = from->start.s.segments > 0 && from->one_way
+                        ? fst_branch_of_orbit(t->out, &from->start.seen, t->family.has_s2)
+                        : -1;
     for (size_t i = 0; met >= 0 && i < t->out->special_count; ++i)
         if (t->out->specials[i].born == from->branch)
             t->out->specials[i].born = met;

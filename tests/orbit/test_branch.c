@@ -1,6 +1,6 @@
 /* Branches over short ranges: special points, the branches born there, other parameters, and a caller that
  * stops the work. Whole branches are in test_branch_long.c.
- * tests: orbit/branch.c orbit/switching.c orbit/special.c orbit/special_test.c orbit/branch_list.c */
+ * tests: orbit/branch.c orbit/counter.c orbit/switching.c orbit/special.c orbit/special_test.c orbit/branch_list.c */
 #include "branches.h"
 
 /* The period halving and the branch born there. Neighbouring points are close together, so no curve jumps to
@@ -114,6 +114,84 @@ static void images_under_s2(void **state)
     fst_branch_free(&b);
 }
 
+/* A bead over two dipoles, of which one is by a part stronger than the other. */
+static fst_params over_dipoles(double stronger)
+{
+    static const char *const sets[][2] = {
+        {"bead.moment", "0.06 A*m^2"},
+        {"magnet.shape", "parts"},
+        {"magnet.depth", "15 mm"},
+        {"drive.omega", "0.4"},
+    };
+    fst_params params = fst_default_params();
+    fst_error error;
+    for (size_t i = 0; i < sizeof sets / sizeof *sets; ++i)
+        if (fst_params_set(&params, sets[i][0], sets[i][1], &error) != FST_OK)
+            fail_msg("%s", error.sentence);
+    params.magnet_part_count = 2;
+    for (int i = 0; i < 2; ++i) {
+        fst_magnet_part *part = &params.magnet_parts[i];
+        *part = (fst_magnet_part){.kind = FST_PART_DIPOLE, .rotation = {0, 0, 0, 1}};
+        part->centre[0] = i ? -0.023 : 0.023;
+        part->moment[2] = i ? -1.0 : 1.0 + stronger;
+    }
+    return params;
+}
+
+/* The branch on which an orbit at this value has nearly this mean height of its pole. */
+static int branch_through(const fst_branch *b, double value, double mean_nz)
+{
+    double least = 5e-4;
+    int nearest = -1;
+    for (size_t i = 0; i + 1 < b->point_count; ++i) {
+        const fst_branch_point *p = &b->points[i], *q = p + 1;
+        const double x = (value - p->value) / (q->value - p->value),
+                     off = fabs(p->mean_nz + x * (q->mean_nz - p->mean_nz) - mean_nz);
+        if (p->branch == q->branch && x >= 0.0 && x <= 1.0 && off < least) {
+            least = off;
+            nearest = p->branch;
+        }
+    }
+    return nearest;
+}
+
+/* Where the magnet is not its own image under S2 the pitchfork falls apart: one branch passes, a pair ends at a fold, and
+ * both are found.  Runs from two sides lead to both.  The fold leaves the pitchfork's place as the two thirds power of
+ * what breaks the symmetry. */
+static void both_halves_of_a_broken_pitchfork(void **state)
+{
+    (void)state;
+    const fst_params even = over_dipoles(0.0);
+    const fst_branch_options o = over_omega(FST_BRANCH_COUNTER, 0.38, 0.45);
+    fst_branch b = followed(&even, &o);
+    assert_int_equal(b.special_count, 1);
+    assert_int_equal(b.specials[0].type, FST_SPECIAL_PITCHFORK);
+    const double fork = b.specials[0].value;
+    double shift[2];
+    fst_branch_free(&b);
+    for (int i = 0; i < 2; ++i) {
+        fst_params params = over_dipoles(i ? 0.008 : 0.001);
+        b = followed(&params, &o);
+        assert_int_equal(b.branches, 2);
+        assert_int_equal(b.special_count, 1);
+        assert_int_equal(b.specials[0].type, FST_SPECIAL_FOLD);
+        shift[i] = fork - b.specials[0].value;
+        int met[2] = {0, 0};
+        for (int start = 0; start < 6 && i; ++start) {
+            fst_orbit orbit;
+            fst_error error;
+            params.start_phi = 60.0 * start;
+            assert_int_equal(fst_orbit_find(&params, NULL, &orbit, &error), FST_OK);
+            const int through = branch_through(&b, 0.4, orbit.means.mean_nz);
+            assert_in_range(through, 0, 1);
+            met[through] = 1;
+        }
+        assert_true(i == 0 || (met[0] && met[1]));
+        fst_branch_free(&b);
+    }
+    CHECK_CLOSE(shift[1] / shift[0], 4.0, 0.4);
+}
+
 static fst_status stop_at_once(void *user, double fraction, const char *what, fst_error *error)
 {
     (void)what;
@@ -164,6 +242,7 @@ int main(void)
         cmocka_unit_test(another_parameter),
         cmocka_unit_test(a_range_without_symmetric_orbits),
         cmocka_unit_test(images_under_s2),
+        cmocka_unit_test(both_halves_of_a_broken_pitchfork),
         cmocka_unit_test(refusals_and_interruption),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
