@@ -280,6 +280,8 @@ typedef struct fst_sweep_counts {
     int repaired;
     int64_t lost;
     int64_t begun_anew; /* runs begun anew, because what was saved of them after a while is damaged */
+    char all_failed
+        [288]; /* why the first run failed, if every row of a sweep that is done tells of one that did; else "" */
     /* Of the rows that this call added, by fst_regime, of several beads by fst_beads_outcome; the last place has runs that
      * failed, of which only the number is known. */
     fst_row_kind kind;

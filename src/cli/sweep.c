@@ -324,7 +324,11 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         return status;
     tell_of_undefined(path, sweep.refine_by, &shown.counts);
     print_sweep(out, path, &shown.counts, &sweep, shown.can_draw, option_value(given, "json") != NULL);
-    return FST_OK;
+    if (!shown.counts.all_failed[0])
+        return FST_OK;
+    output_keep();
+    return fail(error, FST_NO_CONVERGENCE, path, "no run of this sweep could be made; the first: %s",
+                shown.counts.all_failed);
 }
 
 const command sweep_command = {

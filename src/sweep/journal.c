@@ -418,6 +418,25 @@ fst_status fst_journal_count(fst_journal *journal, int64_t *rows, fst_error *err
     return status;
 }
 
+fst_status fst_journal_all_failed(fst_journal *journal, char *reason, size_t size, fst_error *error)
+{
+    static const char asked[] =
+        "SELECT status || ': ' || reason FROM rows "
+        "WHERE NOT EXISTS (SELECT 1 FROM rows WHERE status = 'done') ORDER BY point LIMIT 1";
+    sqlite3_stmt *query = NULL;
+    int code = sqlite3_prepare_v2(journal->file.database, asked, -1, &query, NULL);
+    reason[0] = '\0';
+    if (code == SQLITE_OK)
+        code = sqlite3_step(query);
+    if (code == SQLITE_ROW && sqlite3_column_text(query, 0))
+        (void)snprintf(reason, size, "%s", (const char *)sqlite3_column_text(query, 0));
+    const fst_status status = code == SQLITE_ROW || code == SQLITE_DONE
+                                  ? FST_OK
+                                  : fst_database_fail(journal->file.database, journal->path, error);
+    (void)sqlite3_finalize(query);
+    return status;
+}
+
 fst_status fst_journal_missing(fst_journal *journal, int64_t *next, int64_t *points, int room, int *found,
                                fst_error *error)
 {

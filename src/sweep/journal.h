@@ -59,6 +59,9 @@ const char *fst_journal_path(const fst_journal *journal);
  * or replaced. */
 fst_status fst_journal_commit(fst_journal *journal, fst_error *error);
 
+/* The reason of the first row, where there are rows and all tell of runs that failed; else an empty text. */
+fst_status fst_journal_all_failed(fst_journal *journal, char *reason, size_t size, fst_error *error);
+
 /* The number of rows. */
 fst_status fst_journal_count(fst_journal *journal, int64_t *rows, fst_error *error);
 

@@ -499,6 +499,8 @@ static fst_status lead(sweep *s, const char *path, fst_error *error)
     if (status == FST_OK && (s->counts->there < s->counts->wanted || s->refinement || s->ranks.link))
         status = work(s, error);
     count_points(s);
+    if (status == FST_OK)
+        status = fst_journal_all_failed(s->journal, s->counts->all_failed, sizeof s->counts->all_failed, error);
     if (status == FST_OK && s->checkpoints)
         status = fst_checkpoints_drop_all(s->checkpoints, error);
     fst_checkpoints_close(s->checkpoints);

@@ -70,6 +70,19 @@ class Rows(Case):
         self.assertIn("rolling", rows[0]["reason"])
         self.assertEqual(rows[1]["status"], "done")
 
+    def test_a_sweep_of_failures_alone_has_failed(self):
+        """Its status is 1, now and when it is asked again; all rows and the summary are there.  One run that is made makes it 0."""
+        fails = ("sweep", *SHORT, "--set", "start.r=20", "-o", self.path("none.db"), "--over")
+        for more in ((), (), ("--json",)):
+            status, out, err = festoon(*fails, "drive.frequency=5Hz,6Hz,7Hz", *more)
+            self.assertEqual(status, 1, err)
+            self.assertRegex(err, r"none\.db: no run of this sweep could be made; the first: bad input: .*plate")
+            self.assertIn('"rows": 3' if more else "all 3 points", out)
+            rows = json.loads(self.good("export", self.path("none.db"), "--json"))
+            self.assertEqual([row["status"] for row in rows], ["bad input"] * 3)
+        some = self.good("sweep", *SHORT, "--over", "start.r=20,0.9", "-o", self.path("some.db"))
+        self.assertIn("1 run failed, its row says why", some)
+
     def test_carry_goes_on_from_the_neighbour(self):
         for direction, order in (("up", [0, 1, 2, 3]), ("down", [3, 2, 1, 0])):
             name = direction + ".db"
