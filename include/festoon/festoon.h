@@ -328,6 +328,12 @@ FST_API double fst_run_periods(const fst_params *params);
  * another law.  fst_model_new() does not look, for a sweep may vary the choice: ask before a single run. */
 FST_API fst_status fst_params_check_effects(const fst_params *params, fst_error *error);
 
+/* What the runs of two scenes differ in: nothing at all, because the keys that differ have no effect beside the others (as
+ * friction.mu under viscous friction); units alone, the motion in scaled numbers being the same; or the motion, which is
+ * also the answer for several beads, for worlds, and where a scene makes no model. */
+typedef enum { FST_CHANGE_NOTHING, FST_CHANGE_UNITS, FST_CHANGE_MOTION } fst_scene_change;
+FST_API fst_scene_change fst_params_changes(const fst_params *one, const fst_params *other);
+
 /* FST_BAD_INPUT: a part of the magnet cannot be as it is; a number is out of its range, a turn has no axis, or
  * the part touches or passes the plate.  The sentence names the part, from magnet.parts[0] on. */
 FST_API fst_status fst_params_check_part(const fst_params *params, int part, fst_error *error);

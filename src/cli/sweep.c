@@ -124,7 +124,7 @@ typedef struct display {
     double told;             /* the greatest part that was shown as done */
     fst_sweep_counts counts; /* the library keeps them up to date */
     char material[512];      /* why a bead cannot be made of any material; "": each can */
-    char idle[256];          /* which keys are varied in vain; "": none */
+    char idle[512];          /* which keys are varied in vain; "": none */
     int can_draw;            /* it varies so few parameters that festoon plot shows it */
 } display;
 
@@ -134,7 +134,7 @@ static void warn_once(display *shown, int rank)
     if (shown->material[0] && rank == 0)
         (void)fprintf(stderr, "festoon: warning: %s\n", shown->material);
     if (shown->idle[0] && rank == 0)
-        (void)fprintf(stderr, "festoon: %s (festoon check prints model.kappa and the others)\n", shown->idle);
+        (void)fprintf(stderr, "festoon: %s\n", shown->idle);
     shown->material[0] = '\0';
     shown->idle[0] = '\0';
 }

@@ -125,18 +125,26 @@ static fst_status check_key(const char *field, const char *key, double from, dou
                             const fst_params *params, fst_error *error)
 {
     const int row = fst_param_find(key);
+    fst_params ends[2] = {*params, *params};
     const fst_status status = check_effect(field, key, params, error);
-    if (status != FST_OK)
+    if (status != FST_OK || row < 0 || fst_param_at(row)->kind != FST_KIND_REAL)
         return status;
-    for (int end = 0; row >= 0 && fst_param_at(row)->kind == FST_KIND_REAL && end < 2; ++end) {
-        fst_params scratch = *params;
+    for (int end = 0; end < 2; ++end) {
         fst_error why;
         char text[40];
         (void)fst_number_write(text, sizeof text, end ? to : from);
-        if (fst_params_set(&scratch, key, text, &why) != FST_OK)
+        if (fst_params_set(&ends[end], key, text, &why) != FST_OK)
             return fst_fail(error, FST_BAD_INPUT, field, "%s", why.sentence);
     }
-    return FST_OK;
+    const fst_scene_change change = fst_params_changes(&ends[0], &ends[1]);
+    if (change == FST_CHANGE_MOTION)
+        return FST_OK;
+    return fst_fail(error, FST_BAD_INPUT, field,
+                    "no orbit and no locked state depends on %s in this scene: along it %s; expected another "
+                    "parameter, or another scene",
+                    key,
+                    change == FST_CHANGE_UNITS ? "only units change, because other keys fix the scaled numbers"
+                                               : "nothing changes, because other keys leave it without effect");
 }
 
 static fst_status check_second(const fst_branch_options *o, const fst_params *params, fst_error *error)

@@ -4,8 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "model/worlds.h"
-
 int fst_grid_contradiction(const fst_grid *grid, char *sentence, size_t size)
 {
     enum { LOOKS = 255 };
@@ -18,55 +16,40 @@ int fst_grid_contradiction(const fst_grid *grid, char *sentence, size_t size)
     return found;
 }
 
-/* Whether beads with these parameters, which differ in a key of the bead or of the magnet, move alike but for units: from one
- * start, with the same rates at any other state, and the same load and edge. */
-static int same_motion(const fst_params both[2])
+/* What changes along an axis: seen from the first point and from the last one. */
+static fst_scene_change change_along(const fst_grid *grid, int axis)
 {
-    static const double any[FST_STATE_SIZE] = {0.3, 0.5, 0.02, -0.01, 0.6, 0.0, 0.8, 0.1, -0.2, 0.05};
-    double numbers[2][2 * FST_STATE_SIZE + 2];
-    int made = 0;
-    for (int i = 0; i < 2; ++i) {
-        fst_model *model;
-        if (both[i].bead_count || fst_key_of_world(&both[i]) || fst_model_new(&both[i], &model, NULL) != FST_OK)
-            continue;
-        const fst_groups g = fst_model_groups(model);
-        made += fst_start_state(&both[i], model, numbers[i], NULL) == FST_OK;
-        fst_rhs(model, any, numbers[i] + FST_STATE_SIZE);
-        numbers[i][2 * FST_STATE_SIZE] = g.gravity;
-        numbers[i][2 * FST_STATE_SIZE + 1] = g.plate_radius;
-        fst_model_free(model);
-    }
-    return made == 2 && memcmp(numbers[0], numbers[1], sizeof *numbers) == 0;
-}
-
-/* Whether an axis changes nothing but units: seen from the first point and from the last one. */
-static int is_idle(const fst_grid *grid, int axis)
-{
-    const char *key = fst_grid_key(grid, axis);
     const int64_t count = fst_grid_axis_points(grid, axis), stride = fst_grid_axis_stride(grid, axis);
     const int64_t corners[2] = {0, fst_grid_points(grid) - 1}, others[3] = {0, 1, count - 1};
-    int alike = count > 1 && (strncmp(key, "bead.", 5) == 0 || strncmp(key, "magnet.", 7) == 0);
-    for (int k = 0; k < 6 && alike; ++k) {
+    fst_scene_change most = count > 1 ? FST_CHANGE_NOTHING : FST_CHANGE_MOTION;
+    for (int k = 0; k < 6 && most != FST_CHANGE_MOTION; ++k) {
         const int64_t corner = corners[k / 3],
                       moved = corner + (others[k % 3] - corner / stride % count) * stride;
         fst_params both[2];
-        alike = fst_grid_params(grid, corner, &both[0], NULL) == FST_OK &&
-                fst_grid_params(grid, moved, &both[1], NULL) == FST_OK && same_motion(both);
+        const int made = fst_grid_params(grid, corner, &both[0], NULL) == FST_OK &&
+                         fst_grid_params(grid, moved, &both[1], NULL) == FST_OK;
+        const fst_scene_change change = made ? fst_params_changes(&both[0], &both[1]) : FST_CHANGE_MOTION;
+        most = change > most ? change : most;
     }
-    return alike;
+    return most;
 }
 
 int fst_grid_idle_axes(const fst_grid *grid, char *sentence, size_t size)
 {
-    char keys[160] = "";
-    for (int a = 0; a < fst_grid_axis_count(grid); ++a)
-        if (is_idle(grid, a)) {
-            const size_t used = strlen(keys);
-            (void)snprintf(keys + used, sizeof keys - used, "%s%s", used ? " and " : "", fst_grid_key(grid, a));
+    static const char *const formats[FST_CHANGE_MOTION] = {
+        "along %s nothing changes: its values are the same, or other keys leave it without effect",
+        "along %s only units change: the motion depends on scaled numbers, which other keys fix"};
+    char keys[FST_CHANGE_MOTION + 1][160] = {"", "", ""};
+    int length = 0;
+    for (int a = 0; a < fst_grid_axis_count(grid); ++a) {
+        char *list = keys[change_along(grid, a)];
+        const size_t used = strlen(list);
+        (void)snprintf(list + used, sizeof keys[0] - used, "%s%s", used ? " and " : "", fst_grid_key(grid, a));
+    }
+    for (int i = 0; i < FST_CHANGE_MOTION; ++i)
+        if (keys[i][0] && (size_t)length < size) {
+            length += snprintf(sentence + length, size - (size_t)length, "%s", length ? "; " : "");
+            length += snprintf(sentence + length, size - (size_t)length, formats[i], keys[i]);
         }
-    if (keys[0])
-        (void)snprintf(sentence, size,
-                       "along %s only units change: the motion depends on scaled numbers, which other keys fix",
-                       keys);
-    return keys[0] != '\0';
+    return length > 0;
 }

@@ -130,6 +130,8 @@ class BadInput(unittest.TestCase):
                 ((*counter, "--over", "start.r=0.5:1"), "no orbit and no locked state depends on start.r"),
                 ((*counter, "--over", "run.periods=10:100"), "depends on run.periods"),
                 ((*counter, "--over", "plate.radius=0.01:0.02"), "depends on plate.radius"),
+                ((*counter, "--over", "friction.mu=0.1:0.3"), "depends on friction.mu in this scene: along it nothing changes"),
+                ((*counter, "--over", "magnet.b0=1mT:2mT"), "depends on magnet.b0 in this scene: along it only units change"),
                 ((*counter, "--over", "plate.gravity=9:10"), "with friction.law = viscous no orbit and no locked state"),
                 ((*counter, "--over", "drive.omega=0.25:0.3", "--follow", "pitchfork", "--with", "model.kappa=-2:3"),
                  "--with: model.kappa = -2 is out of range"),

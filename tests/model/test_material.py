@@ -1,6 +1,6 @@
 """A warning names a bead whose mass and radius contradict any material, in words and in the JSON of `check`.
 
-tests: model/material.c model/bare_number.c study/grid_doubts.c cli/check.c cli/sweep.c
+tests: model/material.c model/change.c model/bare_number.c study/grid_doubts.c cli/check.c cli/sweep.c
 labels: numbers"""
 
 import csv
@@ -77,7 +77,7 @@ class Material(unittest.TestCase):
                     (["--over", "bead.radius=2.5mm,2.6mm"], None), (["--over", "bead.inertia=0.4,0.5"], None),
                     (["--over", "magnet.depth=16mm,17mm"], None), (["--over", "magnet.depth=16mm,17mm", "--set", "model.h=0.8"], None),
                     (["--over", "bead.a=1,2"], None), (["--over", "bead.a=0.1,0.2", "--set", "bead.material=mixed"], None),
-                    (["--over", "run.rtol=1e-8,1e-9"], None), (["--over", "bead.moment=0.01,0.01"], "bead.moment")):
+                    (["--over", "run.rtol=1e-8,1e-9"], None)):
                 path = Path(folder) / f"{len(list(Path(folder).iterdir()))}.db"
                 status, out, err = festoon("sweep", *axes, *SHORT, "-o", str(path))
                 if "no effect" in err:
@@ -88,6 +88,15 @@ class Material(unittest.TestCase):
                 rows = list(csv.reader(festoon("export", str(path), "--csv")[1].splitlines()))
                 results = [row[rows[0].index("mean_r"):rows[0].index("mean_nz")] for row in rows[1:]]
                 self.assertEqual(bool(idle), all(row == results[0] for row in results) and results[0][0] != "", axes)
+            dry = ["--set", "friction.law=coulomb"]
+            for i, (axes, more, idle) in enumerate((  # what has no effect at all
+                    (["friction.mu=0.1,0.2"], [], "friction.mu"), (["friction.mu=0.1,0.2", "friction.law=viscous,none"], [], "friction.mu"),
+                    (["friction.mu=0.1,0.2", "friction.law=viscous,coulomb"], [], None), (["start.phi=3,363"], [], "start.phi"),
+                    (["friction.mu=0.1,0.2"], dry, None), (["plate.gravity=9,10"], [], None), (["bead.moment=1,1"], [], "bead.moment"))):
+                words = [word for axis in axes for word in ("--over", axis)] + more
+                status, out, err = festoon("sweep", *words, *SHORT, "-o", str(Path(folder) / f"idle{i}.db"))
+                told = [line.split("along ")[1].split(" nothing")[0] for line in err.splitlines() if "nothing changes" in line]
+                self.assertEqual((status, told), (0, [idle] if idle else []), (axes, err))
         status, out, err = festoon("branch", "--kind", "counter", "--over", "bead.radius=2.499mm:2.5mm")
         self.assertEqual((status, err.count("warning")), (0, 1), err)
 
