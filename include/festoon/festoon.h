@@ -350,15 +350,15 @@ typedef struct fst_part_shape {
 } fst_part_shape;
 FST_API fst_part_shape fst_part_seen(const fst_magnet_part *part);
 
-/* Whether parts of the magnet overlap (fst_parts_overlap()), but for a part of the opposite magnetisation, which makes a hole:
- * 0, or 1 with a sentence. */
-FST_API int fst_parts_contradiction(const fst_params *params, char *sentence, size_t size);
-
 /* Whether the bead's mass and radius contradict any material: the density is outside 1000 to 23000 kg/m^3, or
  * the radius was changed while mass and magnetic strength (kappa) are those of the default bead.  Returns 0 if
  * they do not; otherwise a sentence that says so is left in `sentence`.  A run is possible all the same.  In a
  * scaled scene, with model.eps, the radius plays no part and 0 is returned. */
 FST_API int fst_bead_contradiction(const fst_params *params, char *sentence, size_t size);
+
+/* Whether two parts of a magnet are in one place, or a hole, a part of the opposite magnetisation within another one,
+ * reaches beyond its body.  A part that fills a hole may be there.  0, or 1 with a sentence; a run is possible all the same. */
+FST_API int fst_parts_contradiction(const fst_params *params, char *sentence, size_t size);
 
 /* Whether fst_params_set() was given a bare number of more than 20 times the default that would be nearer to it in
  * another unit, as magnet.depth=8 (which is 8 m) and drive.frequency=642 (Hz).  Returns 0 if not; otherwise a sentence that

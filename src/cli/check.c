@@ -70,12 +70,9 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     fst_params params;
     fst_model *model = NULL;
     double state[FST_STATE_SIZE];
-    char sentence[192];
     fst_status status = read_scene(given, operand(given), &params, error);
     if (status == FST_OK)
         status = fst_field_model_new(&params, NAN, &model, error);
-    if (status == FST_OK && fst_parts_contradiction(&params, sentence, sizeof sentence))
-        (void)fprintf(stderr, "festoon: warning: %s\n", sentence);
     if (status == FST_OK && (params.bead_count || fst_key_of_world(&params))) {
         fst_model_free(model);
         return check_beads(given, &params, out, error);

@@ -157,6 +157,8 @@ fst_status read_scene(const arguments *given, const char *path, fst_params *para
         return status;
     if (isnan(params->run_duration) && !varies(given, "run.periods") && !varies(given, "run.duration"))
         params->run_discard = fst_run_discard(params); /* what is printed is what is done */
+    if (fst_parts_contradiction(params, doubt, sizeof doubt))
+        (void)fprintf(stderr, "festoon: warning: %s\n", doubt);
     if (fst_params_bare_number(params, doubt, sizeof doubt))
         (void)fprintf(stderr, "festoon: warning: %s\n", doubt);
     status = check_effects(given, params, error);

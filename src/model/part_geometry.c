@@ -35,14 +35,14 @@ static void outwards(const fst_magnet_part *part, double axes[3][3], const doubl
 
 /* ------------------------------------------------------------------ seen from above */
 
-/* Points of which the convex hull, seen from above, is the part's outline. */
-static int rim_points(const fst_magnet_part *part, double axes[3][3], double points[FST_OUTLINE_MOST][2])
+/* Points of which the convex hull is the part; of a sphere, one circle. */
+static int rim_points(const fst_magnet_part *part, double axes[3][3], double points[FST_OUTLINE_MOST][3])
 {
     const int round = part->kind == FST_PART_CYLINDER || part->kind == FST_PART_SPHERE;
     const int rims = part->kind == FST_PART_SPHERE ? 1 : 2, around = round ? FST_OUTLINE_MOST / rims : 4;
     for (int i = 0; i < rims * around; ++i) {
         const double angle = FST_TWO_PI * (i % around) / around;
-        double own[3], place[3];
+        double own[3];
         if (round) {
             own[0] = 0.5 * part->size[0] * cos(angle);
             own[1] = 0.5 * part->size[0] * sin(angle);
@@ -52,9 +52,7 @@ static int rim_points(const fst_magnet_part *part, double axes[3][3], double poi
             own[1] = (i & 2 ? 0.5 : -0.5) * part->size[1];
             own[2] = (i & 4 ? 0.5 : -0.5) * part->size[2];
         }
-        outwards(part, axes, own, place);
-        points[i][0] = place[0];
-        points[i][1] = place[1];
+        outwards(part, axes, own, points[i]);
     }
     return rims * around;
 }
@@ -73,7 +71,7 @@ static double turns_left(const double a[2], const double b[2], const double c[2]
 }
 
 /* The convex hull by Andrew's monotone chain: the lower side from left to right, then the upper one back. */
-static int convex_hull(double points[FST_OUTLINE_MOST][2], int count, double size,
+static int convex_hull(double points[FST_OUTLINE_MOST][3], int count, double size,
                        double hull[FST_OUTLINE_MOST][2])
 {
     double chain[2 * FST_OUTLINE_MOST][2];
@@ -86,7 +84,7 @@ static int convex_hull(double points[FST_OUTLINE_MOST][2], int count, double siz
             const double *next = points[side ? count - 1 - k : k];
             while (length >= least && turns_left(chain[length - 2], chain[length - 1], next) <= flat)
                 --length;
-            memcpy(chain[length++], next, sizeof chain[0]);
+            memcpy(chain[length++], next, sizeof chain[0]); /* seen from above */
         }
     }
     --length; /* the first point again */
@@ -99,7 +97,7 @@ fst_part_shape fst_part_seen(const fst_magnet_part *part)
 {
     static const double up[3] = {0, 0, 1};
     const double *strength = part->kind == FST_PART_DIPOLE ? part->moment : part->remanence;
-    double axes[3][3], points[FST_OUTLINE_MOST][2];
+    double axes[3][3], points[FST_OUTLINE_MOST][3];
     fst_part_shape shape;
     memset(&shape, 0, sizeof shape);
     static const double upright[4] = {0, 0, 0, 1};
@@ -208,29 +206,89 @@ int fst_parts_overlap(const fst_magnet_part *one, const fst_magnet_part *other)
     return 0;
 }
 
-/* Whether two bodies are in one place, and the second is no hole in the first. */
-static int contradict(const fst_magnet_part *one, const fst_magnet_part *other)
+/* Whether a part lies wholly within another one. */
+static int lies_within(const fst_magnet_part *inner, const fst_magnet_part *outer)
 {
-    const fst_part_shape seen = fst_part_seen(one), its = fst_part_seen(other);
-    const double *m = seen.magnetisation, *n = its.magnetisation;
-    return hypot(hypot(m[0] + n[0], m[1] + n[1]), m[2] + n[2]) >= 1e-6 * hypot(hypot(m[0], m[1]), m[2]) &&
-           fst_parts_overlap(one, other);
+    const double slack = 5e-4 * fmin(thickness(inner), thickness(outer));
+    double axes[3][3], points[FST_OUTLINE_MOST][3], place[3];
+    if (inner->kind == FST_PART_SPHERE) {
+        memcpy(place, inner->centre, sizeof place);
+        move_within(outer, 0.5 * inner->size[0] - slack, place);
+        return hypot(hypot(place[0] - inner->centre[0], place[1] - inner->centre[1]),
+                     place[2] - inner->centre[2]) < slack;
+    }
+    fst_set_axes_double(inner->rotation, axes);
+    int within = 1;
+    for (int i = rim_points(inner, axes, points) - 1; i >= 0; --i)
+        within &= fst_part_distance(outer, points[i]) < slack;
+    return within;
 }
 
-int fst_parts_contradiction(const fst_params *params, char *sentence, size_t size)
+/* Whether what one adds to the magnetisation the other takes away. */
+static int cancel(const fst_magnet_part *one, const fst_magnet_part *other)
 {
-    char text[192] = "";
-    int pairs = 0;
-    for (int a = 0; a < params->magnet_part_count && params->magnet_shape == FST_MAGNET_PARTS; ++a)
-        for (int b = a + 1; b < params->magnet_part_count; ++b)
-            if (contradict(&params->magnet_parts[a], &params->magnet_parts[b]) && ++pairs == 1)
-                (void)snprintf(text, sizeof text, "magnet.parts[%d] and magnet.parts[%d] overlap", a, b);
+    const fst_part_shape a = fst_part_seen(one), b = fst_part_seen(other);
+    const double *m = a.magnetisation, *n = b.magnetisation;
+    return hypot(hypot(m[0] + n[0], m[1] + n[1]), m[2] + n[2]) < 1e-6 * hypot(hypot(m[0], m[1]), m[2]);
+}
+
+/* Whether a part lies in a hole, which others made for it in the magnet's part `of`, or is itself such a hole. */
+static int lies_in_hole(const fst_params *p, int part, int of)
+{
+    for (int h = 0; h < p->magnet_part_count; ++h) {
+        const fst_magnet_part *hole = &p->magnet_parts[h];
+        if (h != part && h != of && cancel(hole, &p->magnet_parts[of]) &&
+            lies_within(hole, &p->magnet_parts[of]) && lies_within(&p->magnet_parts[part], hole))
+            return 1;
+    }
+    return 0;
+}
+
+/* Whether two parts, of which one is in a place of the other, may be there: one is a hole in the other, or fills one. */
+static int may_overlap(const fst_params *p, int a, int b)
+{
+    const fst_magnet_part *one = &p->magnet_parts[a], *other = &p->magnet_parts[b];
+    if (cancel(one, other) && (lies_within(one, other) || lies_within(other, one)))
+        return 1;
+    if (lies_in_hole(p, a, b) || lies_in_hole(p, b, a))
+        return 1;
+    for (int c = 0; c < p->magnet_part_count; ++c) /* the hole that one fills is the other */
+        if (c != a && c != b &&
+            ((cancel(one, &p->magnet_parts[c]) && lies_within(one, &p->magnet_parts[c]) &&
+              lies_within(other, one)) ||
+             (cancel(other, &p->magnet_parts[c]) && lies_within(other, &p->magnet_parts[c]) &&
+              lies_within(one, other))))
+            return 1;
+    return 0;
+}
+
+int fst_parts_contradiction(const fst_params *p, char *sentence, size_t size)
+{
+    int pairs = 0, first[2] = {0, 0};
+    char others[48] = "";
+    for (int a = 0; a < p->magnet_part_count && p->magnet_shape == FST_MAGNET_PARTS; ++a)
+        for (int b = a + 1; b < p->magnet_part_count; ++b)
+            if (fst_parts_overlap(&p->magnet_parts[a], &p->magnet_parts[b]) && !may_overlap(p, a, b) &&
+                ++pairs == 1) {
+                first[0] = a;
+                first[1] = b;
+            }
+    if (pairs == 0)
+        return 0;
     if (pairs > 1)
-        (void)snprintf(text + strlen(text), sizeof text - strlen(text), " (as %d other pair%s)", pairs - 1,
-                       pairs > 2 ? "s do" : " does");
-    if (pairs)
-        (void)snprintf(sentence, size, "%s: where both are their magnetisations add", text);
-    return pairs > 0;
+        (void)snprintf(others, sizeof others, " (as %d other pair%s)", pairs - 1, pairs > 2 ? "s do" : " does");
+    if (cancel(&p->magnet_parts[first[0]], &p->magnet_parts[first[1]]))
+        (void)snprintf(
+            sentence, size,
+            "magnet.parts[%d] and magnet.parts[%d] make a hole that reaches beyond its body: there it is a "
+            "magnet of its own",
+            first[0], first[1]);
+    else
+        (void)snprintf(
+            sentence, size,
+            "magnet.parts[%d] and magnet.parts[%d] overlap%s: where both are their magnetisations add",
+            first[0], first[1], others);
+    return 1;
 }
 
 int fst_part_touched(const fst_params *params, const double place[3], double radius)

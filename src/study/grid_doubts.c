@@ -37,19 +37,19 @@ static fst_scene_change change_along(const fst_grid *grid, int axis)
 int fst_grid_idle_axes(const fst_grid *grid, char *sentence, size_t size)
 {
     static const char *const formats[FST_CHANGE_MOTION] = {
-        "along %s nothing changes: its values are the same, or other keys leave it without effect",
-        "along %s only units change: the motion depends on scaled numbers, which other keys fix"};
+        "along %.160s nothing changes: its values are the same, or other keys leave it without effect",
+        "along %.160s only units change: the motion depends on scaled numbers, which other keys fix"};
     char keys[FST_CHANGE_MOTION + 1][160] = {"", "", ""};
-    int length = 0;
+    char told[2][280] = {"", ""};
     for (int a = 0; a < fst_grid_axis_count(grid); ++a) {
         char *list = keys[change_along(grid, a)];
         const size_t used = strlen(list);
         (void)snprintf(list + used, sizeof keys[0] - used, "%s%s", used ? " and " : "", fst_grid_key(grid, a));
     }
     for (int i = 0; i < FST_CHANGE_MOTION; ++i)
-        if (keys[i][0] && (size_t)length < size) {
-            length += snprintf(sentence + length, size - (size_t)length, "%s", length ? "; " : "");
-            length += snprintf(sentence + length, size - (size_t)length, formats[i], keys[i]);
-        }
-    return length > 0;
+        if (keys[i][0])
+            (void)snprintf(told[i], sizeof told[i], formats[i], keys[i]);
+    if (told[0][0] || told[1][0])
+        (void)snprintf(sentence, size, "%s%s%s", told[0], told[0][0] && told[1][0] ? "; " : "", told[1]);
+    return told[0][0] || told[1][0];
 }

@@ -107,11 +107,11 @@ class Parts(Case):
         self.good("field", self.scene, "--at", "-15mm,2mm", "--height", "-7mm")  # below it
 
     def test_parts_in_one_place_are_told(self):
-        """Once for each pair; not of parts that touch, and not where one is the hole of another."""
+        """The first pair, by whatever reads the scene; not of parts that touch, and not where one is the hole of another."""
         block = "    - {kind: cuboid, centre: [%s, 0, 0], size: 10 mm, remanence: [0, 0, %s]}\n".replace("10 mm", "[10 mm, 10 mm, 10 mm]")
         scene = self.path("blocks.yaml")
         for blocks, told in (([("0", "1"), ("9 mm", "1"), ("19 mm", "1")], ["[0] and magnet.parts[1]"]), ([("0", "1"), ("10 mm", "1")], []),
-                             ([("0", "1"), ("8 mm", "1"), ("4 mm", "0.5")], ["[0] and magnet.parts[1]", "[0] and magnet.parts[2]", "[1] and magnet.parts[2]"]),
+                             ([("0", "1"), ("8 mm", "1"), ("4 mm", "0.5")], ["[0] and magnet.parts[1]"]),
                              ([("0", "1"), ("0", "-1"), ("30 mm", "1")], [])):
             for world in ("", "medium: {viscosity: 1 mPa s}\n"):
                 with open(scene, "w") as file:
@@ -120,6 +120,8 @@ class Parts(Case):
                 self.assertEqual(status, 0, err)
                 found = [line.split("magnet.parts", 1)[1].split(" overlap")[0] for line in err.splitlines() if " overlap" in line]
                 self.assertEqual(found, told)
+                if not world:
+                    self.assertEqual(festoon("run", scene, "--set", "run.periods=1", "--set", "run.discard=0")[2].count(" overlap"), len(told))
 
     def test_trajectories_keep_the_parts(self):
         name = self.path("t.csv")

@@ -561,9 +561,69 @@ static void parts_overlap_where_a_place_is_in_both(void **state)
     assert_true(counts[0] > 10 && counts[1] > 10);
 }
 
+/* What a magnet of blocks and rods about one place is told. */
+static void holes_and_what_fills_them(void **state)
+{
+    (void)state;
+    static const struct {
+        struct {
+            fst_part_kind kind;
+            double size[3], remanence;
+        } parts[3];
+        int count;
+        const char *told;
+    } cases[] = {
+        {{{FST_PART_CUBOID, {0.02, 0.02, 0.01}, 1.0}, {FST_PART_CYLINDER, {0.008, 0.01}, -1.0}}, 2, NULL},
+        {{{FST_PART_CUBOID, {0.02, 0.02, 0.01}, 1.0}, {FST_PART_CYLINDER, {0.008, 0.012}, -1.0}},
+         2,
+         "[0] and magnet.parts[1] make a hole that reaches beyond"},
+        {{{FST_PART_CUBOID, {0.02, 0.02, 0.01}, 1.0}, {FST_PART_SPHERE, {0.01}, -1.0}}, 2, NULL},
+        {{{FST_PART_CUBOID, {0.02, 0.02, 0.01}, 1.0}, {FST_PART_SPHERE, {0.011}, -1.0}},
+         2,
+         "[0] and magnet.parts[1] make a hole"},
+        {{{FST_PART_CUBOID, {0.02, 0.02, 0.01}, 1.0}, {FST_PART_CYLINDER, {0.008, 0.01}, -0.5}},
+         2,
+         "[0] and magnet.parts[1] overlap"},
+        {{{FST_PART_CUBOID, {0.02, 0.02, 0.01}, 1.0},
+          {FST_PART_CYLINDER, {0.008, 0.01}, -1.0},
+          {FST_PART_SPHERE, {0.006}, 0.7}},
+         3,
+         NULL},
+        {{{FST_PART_SPHERE, {0.006}, 0.7},
+          {FST_PART_CYLINDER, {0.008, 0.01}, -1.0},
+          {FST_PART_CUBOID, {0.02, 0.02, 0.01}, 1.0}},
+         3,
+         NULL},
+        {{{FST_PART_CUBOID, {0.02, 0.02, 0.01}, 1.0},
+          {FST_PART_CYLINDER, {0.008, 0.01}, -1.0},
+          {FST_PART_SPHERE, {0.009}, 0.7}},
+         3,
+         "[0] and magnet.parts[2] overlap"},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+        fst_params params = fst_default_params();
+        char sentence[256];
+        params.magnet_shape = FST_MAGNET_PARTS;
+        params.magnet_part_count = cases[k].count;
+        for (int i = 0; i < cases[k].count; ++i) {
+            fst_magnet_part *part = &params.magnet_parts[i];
+            memset(part, 0, sizeof *part);
+            part->kind = (int)cases[k].parts[i].kind;
+            part->rotation[3] = 1.0;
+            memcpy(part->size, cases[k].parts[i].size, sizeof part->size);
+            part->remanence[2] = cases[k].parts[i].remanence;
+        }
+        const int found = fst_parts_contradiction(&params, sentence, sizeof sentence);
+        assert_int_equal(found != 0, cases[k].told != NULL);
+        if (cases[k].told)
+            CHECK_CONTAINS(sentence, cases[k].told);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(holes_and_what_fills_them),
         cmocka_unit_test(parts_that_touch_do_not_overlap),
         cmocka_unit_test(parts_overlap_where_a_place_is_in_both),
         cmocka_unit_test(parts_are_read),

@@ -131,7 +131,9 @@ static fst_params over_dipoles(double stronger)
     params.magnet_part_count = 2;
     for (int i = 0; i < 2; ++i) {
         fst_magnet_part *part = &params.magnet_parts[i];
-        *part = (fst_magnet_part){.kind = FST_PART_DIPOLE, .rotation = {0, 0, 0, 1}};
+        memset(part, 0, sizeof *part);
+        part->kind = FST_PART_DIPOLE;
+        part->rotation[3] = 1.0;
         part->centre[0] = i ? -0.023 : 0.023;
         part->moment[2] = i ? -1.0 : 1.0 + stronger;
     }
