@@ -22,7 +22,7 @@ typedef enum {
 enum { FST_LENGTH_UNIT_SIZE = 8, FST_TRACKED_BEADS = 4 };
 
 /* W and v of a frame come of it and its neighbours, so many frames in all, in which rotations and places are polynomials of
- * this order in time: what changes within half of them is lost. */
+ * this order in time: what changes within half of them is lost, unless it repeats itself over the whole film. */
 enum { FST_TURNING_WINDOW = 11, FST_TURNING_ORDER = 7 };
 
 /* How a bead with marks turns in a frame, in the axes of the track, z being up from the plate.  NAN: not known.  An error is
@@ -48,6 +48,7 @@ typedef struct fst_track {
     unsigned char *flag;  /* fst_frame_flag */
     int *doubts;          /* how often until here the bead may have exchanged its name with another one's */
     fst_turning *turning; /* NULL: how the bead turns was not looked at */
+    int rhythm;           /* 1: the motion repeats itself, so that a turning's window lost none of it */
     char length_unit[FST_LENGTH_UNIT_SIZE]; /* "px", or a unit of params.def: "mm" */
     double
         scale_error; /* relative standard deviation of the length of a pixel, which all lengths share; 0: unknown,
@@ -66,7 +67,7 @@ FST_API fst_status fst_track_append(fst_track *track, int64_t frame, double t, d
 FST_API fst_status fst_track_add_turning(fst_track *track, fst_error *error);
 
 /* Write a track as festoon's own CSV, whole or not at all: where the scale has an error, a comment
- * `# scale_error: 0.004`; columns `frame,t [s],x [mm],y [mm]` with the track's
+ * `# scale_error: 0.004`, where `rhythm` is set, `# rhythm: 1`; columns `frame,t [s],x [mm],y [mm]` with the track's
  * unit of length, a row a frame, empty cells where the bead was lost.  Rejected places are written as they are.
  * Without a clock there is no column `t [s]`.  A track with turning has columns for it, and empty cells where it is not
  * known. */

@@ -24,7 +24,7 @@ Path = Union[str, "os.PathLike[str]"]
 COLUMNS = {"frame": "int64_t", "t": "double", "x": "double", "y": "double", "flag": "unsigned char", "doubts": "int"}
 
 
-def _struct_of(columns: Mapping[str, Any], length_unit: str, fps: float, steady: bool, scale_error: float) -> Any:
+def _struct_of(columns: Mapping[str, Any], length_unit: str, fps: float, steady: bool, scale_error: float, rhythm: int) -> Any:
     """A track of the library over arrays of numpy, which live as long as it."""
     made = ffi.new("fst_track *")
     for name, kind in COLUMNS.items():
@@ -33,14 +33,15 @@ def _struct_of(columns: Mapping[str, Any], length_unit: str, fps: float, steady:
         made.turning = ffi.from_buffer("fst_turning[]", columns["turning"])
     made.rows = made.capacity = len(columns["frame"])
     made.length_unit, made.fps, made.steady = length_unit.encode(), fps, steady
-    made.scale_error = scale_error
+    made.scale_error, made.rhythm = scale_error, rhythm
     return ffi.gc(made, lambda _, kept=(made, columns): None)
 
 
 def _track_again(
-    columns: Mapping[str, Any], length_unit: str, fps: float, steady: bool, scale_error: float, understood: str, report: Any
+    columns: Mapping[str, Any], length_unit: str, fps: float, steady: bool, scale_error: float, rhythm: int, understood: str,
+    report: Any
 ) -> "Track":
-    made = Track._of(_struct_of(columns, length_unit, fps, steady, scale_error), understood)
+    made = Track._of(_struct_of(columns, length_unit, fps, steady, scale_error, rhythm), understood)
     made.report = report
     return made
 
@@ -162,8 +163,8 @@ class Track(Tabled):
         names = [*COLUMNS, "turning"] if self._track.turning else COLUMNS
         return {name: getattr(self, name).copy() for name in names}
 
-    def _clock(self) -> Tuple[str, float, bool, float]:
-        return self.length_unit, self.fps, bool(self._track.steady), self.scale_error
+    def _clock(self) -> Tuple[str, float, bool, float, int]:
+        return self.length_unit, self.fps, bool(self._track.steady), self.scale_error, int(self._track.rhythm)
 
     def _copy(self) -> Tuple[Any, Dict[str, Any]]:
         """The track once more, for a call that may reject rows of it and be interrupted, and its arrays."""

@@ -54,7 +54,7 @@ fst_status fit_film_take(fit_film *f, const fst_track *track, const fst_measurem
         f->slip_error[f->frames] = turning ? unit * turning->slip_error : NAN;
         f->weight[f->frames++] = 1.0;
     }
-    if (f->frames > 1)
+    if (f->frames > 1 && !track->rhythm)
         f->step = (f->t[f->frames - 1] - f->t[0]) / (f->row[f->frames - 1] - f->row[0]);
     return FST_OK;
 }

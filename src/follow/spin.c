@@ -5,7 +5,7 @@
  * By how much all rotations are off such smooth paths, beyond what was expected, tells by how much their errors have
  * to be widened.
  */
-#include "follow/turning.h"
+#include "follow/rhythm.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -43,8 +43,10 @@ typedef struct near_frame {
     double change[3][UNKNOWN]; /* of its rotation vector with the unknowns */
 } near_frame;
 
-/* A window around a frame. */
+/* A window around a frame; its polynomials have what the rhythm leaves. */
 typedef struct window {
+    const follow_rhythm *rhythm;
+    double start, step; /* of the frame in the middle, and the usual one: s */
     near_frame frames[MOST];
     int count;
     double turn[3][3];       /* in the middle */
@@ -59,7 +61,9 @@ typedef struct window {
 static void rate_at(const window *w, double time, double rate[3])
 {
     double factor = 1.0;
-    rate[0] = rate[1] = rate[2] = 0.0;
+    follow_rhythm_rate(w->rhythm, w->start + w->step * time, rate);
+    for (int i = 0; i < 3; ++i)
+        rate[i] *= w->step;
     for (int order = 0; order < ORDERS; ++order) {
         for (int i = 0; i < 3; ++i)
             rate[i] += factor * w->rates[order][i];
@@ -189,7 +193,9 @@ static int fit(window *w, int middle)
 {
     double normal[UNKNOWN * UNKNOWN], right[UNKNOWN];
     memcpy(w->turn, w->frames[middle].turn->pose.turn, sizeof w->turn);
-    if (!begin(w))
+    if (w->rhythm->lines > 0)
+        memset(w->rates, 0, sizeof w->rates);
+    else if (!begin(w))
         return 0;
     for (int repeat = 0; repeat < REPEATS; ++repeat) {
         go(w, middle, -1);
@@ -214,15 +220,19 @@ static int fit(window *w, int middle)
 static int velocity(const window *w, double v[2], double *factor, double off[2])
 {
     double normal[PLACES * PLACES] = {0.0}, columns[3][PLACES] = {{0.0}};
+    double left_place[MOST][2], rhythm[2], slope[2];
     columns[2][1] = 1.0;
     for (int at = 0; at < w->count; ++at) {
         const double t = w->frames[at].time;
+        follow_rhythm_place(w->rhythm, w->frames[at].turn->time, rhythm, slope);
+        for (int k = 0; k < 2; ++k)
+            left_place[at][k] = w->frames[at].turn->place[k] - rhythm[k];
         double terms[PLACES] = {1.0};
         for (int i = 1; i < PLACES; ++i)
             terms[i] = terms[i - 1] * t;
         for (int i = 0; i < PLACES; ++i) {
             for (int k = 0; k < 2; ++k)
-                columns[k][i] += terms[i] * w->frames[at].turn->place[k];
+                columns[k][i] += terms[i] * left_place[at][k];
             for (int j = 0; j < PLACES; ++j)
                 normal[PLACES * i + j] += terms[i] * terms[j];
         }
@@ -236,7 +246,7 @@ static int velocity(const window *w, double v[2], double *factor, double off[2])
     for (int at = 0; at < w->count; ++at)
         for (int k = 0; k < 2; ++k) {
             const double t = w->frames[at].time, *c = columns[k];
-            double left = w->frames[at].turn->place[k], power = 1.0;
+            double left = left_place[at][k], power = 1.0;
             for (int i = 0; i < PLACES; ++i, power *= t)
                 left -= c[i] * power;
             off[0] += left * left;
@@ -255,6 +265,8 @@ static int collect(const follow_turning *t, int i, int side, double usual, windo
 {
     int middle = -1;
     w->count = 0;
+    w->start = t->turns[i].time;
+    w->step = usual;
     for (int k = i > side ? i - side : 0; k <= i + side && k < t->count; ++k) {
         const follow_turn *f = &t->turns[k];
         const double time = (f->time - t->turns[i].time) / usual;
@@ -276,12 +288,13 @@ static double usual_step(const follow_turning *t, double *room)
 /* By how much rotations are off smooth ones, over what was expected, and the error of a place, mm.  These windows
  * are wider than those from which W follows: errors of neighbouring frames are alike, so a narrow window would not show
  * them, nor that W changes faster than its polynomial. */
-static void scatter(const follow_turning *t, double usual, double *room, double *widen, double *place)
+static void scatter(const follow_turning *t, const follow_rhythm *rhythm, double usual, double *room,
+                    double *widen, double *place)
 {
     double off[2] = {0.0, 0.0}, unused[2] = {0.0, 0.0};
     int count = 0;
     for (int i = 0; i < t->count; ++i) {
-        window w;
+        window w = {.rhythm = rhythm};
         double v[2], factor;
         if (collect(t, i, SIDE, usual, &w) >= 0)
             (void)velocity(&w, v, &factor, w.count > 2 * SIDE ? off : unused);
@@ -310,7 +323,7 @@ static double across(const follow_turn *f, const double n[3])
     return sqrt(fmax(0.0, sum));
 }
 
-/* What is told of a frame. */
+/* What a window tells of its frame. */
 static void tell(const follow_turning *t, const follow_turn *f, const window *w, double usual, double widen,
                  double place, const double axis[3], fst_turning *told)
 {
@@ -337,24 +350,88 @@ static void tell(const follow_turning *t, const follow_turn *f, const window *w,
     told->slip_error = hypot(factor * place, t->millimetres * widen * sqrt(flat)) / usual;
 }
 
+/* What all windows tell, beyond a rhythm. */
+static void tell_all(const follow_turning *t, const follow_rhythm *rhythm, double usual, const double axis[3],
+                     double *room, fst_turning *told)
+{
+    double widen, place;
+    scatter(t, rhythm, usual, room, &widen, &place);
+    for (int i = 0; i < t->count; ++i) {
+        window w = {.rhythm = rhythm};
+        const int middle = collect(t, i, SIDE, usual, &w);
+        told[i] = (fst_turning){{NAN, NAN, NAN}, NAN, {NAN, NAN, NAN}, NAN, {NAN, NAN}, NAN};
+        if (middle >= 0 && fit(&w, middle) && w.chi2 < MOST_CHI2 * widen * widen)
+            tell(t, &t->turns[i], &w, usual, widen, place, axis, &told[i]);
+    }
+}
+
+/* The roots of the mean squares of W, the slip and the error of the slip. */
+typedef struct sizes {
+    double w, slip, slip_error;
+} sizes;
+
+static sizes sizes_of(const fst_turning *told, int count)
+{
+    sizes s = {0.0, 0.0, 0.0};
+    double known = 0.0;
+    for (int i = 0; i < count; ++i)
+        if (isfinite(told[i].slip_error)) {
+            s.w += fst_dot(told[i].w, told[i].w, 3) / 3.0;
+            s.slip += fst_dot(told[i].slip, told[i].slip, 2) / 2.0;
+            s.slip_error += told[i].slip_error * told[i].slip_error;
+            known += 1.0;
+        }
+    return (sizes){sqrt(s.w / known), sqrt(s.slip / known), sqrt(s.slip_error / known)};
+}
+
+/* Where less is left of a motion that repeats itself than windows err by, the rhythm tells W and slip.  What is left is their
+ * error: chance, or by how much the motion does not repeat itself.  Returns whether it was so. */
+static int keep_rhythm(const follow_turning *t, const follow_rhythm *rhythm, const fst_turning *left,
+                       fst_turning *told)
+{
+    const sizes beyond = sizes_of(left, t->count), plain = sizes_of(told, t->count);
+    if (!(beyond.slip < plain.slip_error))
+        return 0;
+    for (int i = 0; i < t->count; ++i) {
+        const double time = t->turns[i].time;
+        double place[2], v[2], *w = told[i].w;
+        told[i] = left[i];
+        told[i].n_error *= fmax(1.0, beyond.slip / beyond.slip_error);
+        if (isnan(left[i].slip_error))
+            continue;
+        follow_rhythm_rate(rhythm, time, w);
+        follow_rhythm_place(rhythm, time, place, v);
+        told[i].slip[0] = v[0] - t->millimetres * w[1];
+        told[i].slip[1] = v[1] + t->millimetres * w[0];
+        told[i].w_error = beyond.w;
+        told[i].slip_error = beyond.slip;
+    }
+    return 1;
+}
+
 fst_status follow_spin(const follow_turning *turning, fst_track *track, fst_error *error)
 {
-    double axis[3], widen, place, *room = malloc((size_t)(turning->count + 1) * sizeof *room);
-    fst_status status = room ? fst_track_add_turning(track, error)
-                             : fst_fail(error, FST_NO_MEMORY, "track", "no memory for the turning of a bead");
+    const size_t count = (size_t)turning->count;
+    double axis[3], *room = malloc((count + 1) * sizeof *room);
+    fst_turning *told = malloc((2 * count + 1) * sizeof *told);
+    fst_status status = room && told
+                            ? fst_track_add_turning(track, error)
+                            : fst_fail(error, FST_NO_MEMORY, "track", "no memory for the turning of a bead");
     if (status == FST_OK && turning->count > 1) {
         const double usual = usual_step(turning, room);
+        follow_rhythm rhythm = {.lines = 0};
         if (!follow_sphere_axis(&turning->sphere, axis))
             axis[0] = axis[1] = axis[2] = NAN;
-        scatter(turning, usual, room, &widen, &place);
-        for (int i = 0; i < turning->count; ++i) {
-            window w;
-            const int middle = collect(turning, i, SIDE, usual, &w);
-            if (middle >= 0 && fit(&w, middle) && w.chi2 < MOST_CHI2 * widen * widen)
-                tell(turning, &turning->turns[i], &w, usual, widen, place, axis,
-                     &track->turning[turning->turns[i].frame]);
+        tell_all(turning, &rhythm, usual, axis, room, told);
+        follow_rhythm_find(turning, usual, &rhythm);
+        if (rhythm.lines > 0) {
+            tell_all(turning, &rhythm, usual, axis, room, told + count);
+            track->rhythm = keep_rhythm(turning, &rhythm, told + count, told);
         }
+        for (size_t i = 0; i < count; ++i)
+            track->turning[turning->turns[i].frame] = told[i];
     }
+    free(told);
     free(room);
     return status;
 }

@@ -23,13 +23,16 @@
 #include "base/turn.h"
 #include "base/watch.h"
 
-enum { WINDOWS = 24, WINDOW = 60, EARLY = 6, PASSES = 40, SEARCHES = 3, ROUNDS = 3, SPELL = 20 };
+enum { WINDOWS = 24, WINDOW = 60, EARLY = 6, PASSES = 100, SEARCHES = 3, ROUNDS = 3, SPELL = 20, RESTS = 2 };
 
 #define WIDE 1.1            /* rad around the prediction: at the start ... */
 #define USUAL 0.5           /* ... and later */
 #define LEAST_SPREAD 2.0    /* gray levels that marks change on a point of the face */
 #define ENOUGH 0.5          /* of what is foretold from a frame: no better one is looked for */
 #define LEAST_GAIN 2e-5     /* of what is explained, for another pass */
+#define MOST_MOVED 0.05     /* rad in a pass, by a rotation that finds its place */
+#define LEAST_KEPT 0.5      /* of a pass's movement by the next */
+#define LEAP 8.0            /* times the movement of a pass */
 #define LEAST_EXPLAINED 0.8 /* chains that are wrong in part explain up to 0.8 */
 
 /* ------------------------------------------------------------------ from frame to frame */
@@ -201,17 +204,54 @@ static fst_status find_roughly(follow_turning *t, const fst_progress *progress, 
     return status;
 }
 
-/* Improve all rotations until no more is explained.  Returns which part is. */
-static fst_status improve_all(follow_turning *t, const fst_progress *progress, double *room, double *explained,
-                              fst_error *error)
+/* Where the rotations were a pass before, and how they moved in it. */
+typedef struct past {
+    double turn[3][3], moved[3];
+} past;
+
+/* The surface follows the rotations, and these the surface, so that what both have wrong, such as how far apart two dots
+ * are, shrinks by a small part a pass.  Where two passes moved the rotations alike, move them on by as much as many such passes
+ * would.  Returns whether it did; `may` is 0 where the passes after the last time have still to show their effect. */
+static int leap(follow_turning *t, past *pasts, int may)
 {
-    double before = -INFINITY;
+    double alike = 0.0, squares = 0.0;
+    for (int i = 0; i < t->count; ++i) {
+        double moved[3];
+        fst_turn_between((const double(*)[3])pasts[i].turn, (const double(*)[3])t->turns[i].pose.turn, moved);
+        if (t->turns[i].good && fst_dot(moved, moved, 3) < MOST_MOVED * MOST_MOVED) {
+            alike += fst_dot(moved, pasts[i].moved, 3);
+            squares += fst_dot(pasts[i].moved, pasts[i].moved, 3);
+        } else {
+            memset(moved, 0, sizeof moved);
+        }
+        memcpy(pasts[i].moved, moved, sizeof moved);
+    }
+    const double kept = squares > 0.0 ? alike / squares : 0.0;
+    const int leaps = may && kept > LEAST_KEPT;
+    for (int i = 0; i < t->count; ++i) {
+        double by[3];
+        for (int k = 0; k < 3 && leaps; ++k)
+            by[k] = LEAP * pasts[i].moved[k];
+        if (leaps)
+            fst_turn_by(t->turns[i].pose.turn, by);
+        memcpy(pasts[i].turn, t->turns[i].pose.turn, sizeof pasts[i].turn);
+    }
+    return leaps;
+}
+
+/* Improve all rotations until no more is explained.  Returns which part is. */
+static fst_status improve_all(follow_turning *t, const fst_progress *progress, double *room, past *pasts,
+                              double *explained, fst_error *error)
+{
+    double before = -INFINITY; /* what was explained where it was leapt last */
     fst_status status = FST_OK;
+    int rests = 0;
     *explained = 0.0;
-    for (int pass = 0; pass < PASSES && status == FST_OK && *explained > before; ++pass) {
+    for (int pass = 0; pass < PASSES && status == FST_OK && (rests > 0 || *explained > before + LEAST_GAIN);
+         ++pass) {
         if (pass == SEARCHES && *explained < LEAST_EXPLAINED)
             return FST_OK; /* a wrong chain does not become right */
-        before = pass > 2 ? *explained + LEAST_GAIN : -INFINITY;
+        before = rests == 0 && pass > 2 ? *explained : before;
         follow_surface_learn(t);
         if (pass > 0)
             follow_light_learn(t);
@@ -220,6 +260,9 @@ static fst_status improve_all(follow_turning *t, const fst_progress *progress, d
         follow_centre(t);
         judge(t, 3.0, room);
         *explained = follow_explain(t);
+        rests = leap(t, pasts, rests == 0 && pass > SEARCHES && pass + RESTS < PASSES) ? RESTS
+                : rests > 0                                                            ? rests - 1
+                                                                                       : 0;
         status = fst_tell(progress, 0.8 + 0.2 * pass / PASSES, NULL, error);
     }
     return status;
@@ -230,16 +273,20 @@ fst_status follow_turning_find(follow_turning *turning, const fst_progress *prog
 {
     follow_turning *t = turning;
     double *room = malloc((size_t)(t->count + 1) * sizeof *room);
+    past *pasts = calloc((size_t)(t->count + 1), sizeof *pasts);
     int next = 0;
     *explained = 0.0;
-    if (!room)
+    if (!room || !pasts) {
+        free(room);
+        free(pasts);
         return fst_fail(error, FST_NO_MEMORY, "track", "no memory for the turning of a bead");
+    }
     fst_status status = FST_OK;
     const int marked = t->count >= WINDOW && follow_light_begin(t) >= LEAST_SPREAD;
     while (marked && status == FST_OK && next < WINDOWS && *explained < LEAST_EXPLAINED) {
         status = find_roughly(t, progress, &next, room, error);
         if (status == FST_OK)
-            status = improve_all(t, progress, room, explained, error);
+            status = improve_all(t, progress, room, pasts, explained, error);
     }
     const int is_found = *explained >= LEAST_EXPLAINED;
     if (!is_found)
@@ -247,5 +294,6 @@ fst_status follow_turning_find(follow_turning *turning, const fst_progress *prog
     for (int i = 0; i < t->count && is_found; ++i)
         follow_known(t, &t->turns[i]);
     free(room);
+    free(pasts);
     return status;
 }

@@ -74,6 +74,7 @@ static fst_status choose_unit(choice *c, fst_track *track, fst_error *error)
     const char *says = c->raw->length_unit;
     const double metres = track_length_unit(says);
     c->scale = 1.0;
+    track->rhythm = c->raw->rhythm;
     track->scale_error = isfinite(c->options->scale) ? c->options->scale_error : c->raw->scale_error;
     if (isfinite(c->options->scale)) {
         const char *unit = c->options->scale_unit ? c->options->scale_unit : "mm";

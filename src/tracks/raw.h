@@ -26,6 +26,8 @@ typedef struct track_spot {
 
 /* How the comment of festoon's own tracks begins that has the relative error of the scale. */
 #define TRACK_SCALE_ERROR "# scale_error: "
+/* ... and the one where the window of the turning lost nothing. */
+#define TRACK_RHYTHM "# rhythm: 1"
 
 enum { TRACK_NAME_SIZE = 64, TRACK_MOST_TRACKS = 65536 };
 
@@ -33,7 +35,7 @@ typedef struct track_raw {
     track_spot *spots;
     size_t count;
     fst_turning *turnings; /* in the file's unit of length */
-    int turned;
+    int turned, rhythm;
     char (*names)[TRACK_NAME_SIZE];
     int name_count;
     int last_name;        /* the name found last: spots of a track often stand together */

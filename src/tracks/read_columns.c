@@ -151,17 +151,19 @@ static void take_clock(reader *r)
     r->raw->time_unit = r->raw->time_unit > 0.0 ? r->raw->time_unit : 1.0;
 }
 
-/* festoon's own comment before the head: the relative error of the scale. */
-static fst_status take_scale_error(reader *r)
+/* festoon's own comments before the head: the relative error of the scale, and whether the motion repeats itself. */
+static fst_status take_comments(reader *r)
 {
     const fst_text *text = r->table.text;
     const size_t size = strlen(TRACK_SCALE_ERROR);
-    for (size_t i = 0; i + 1 < r->table.line; ++i)
+    for (size_t i = 0; i + 1 < r->table.line; ++i) {
+        r->raw->rhythm |= strcmp(text->lines[i], TRACK_RHYTHM) == 0;
         if (strncmp(text->lines[i], TRACK_SCALE_ERROR, size) == 0 &&
             !(fst_text_number(text->lines[i] + size, &r->raw->scale_error) == FST_TEXT_NUMBER &&
               r->raw->scale_error >= 0.0 && r->raw->scale_error < 1.0))
             return fst_text_fail(text->path, i + 1, r->table.error,
                                  "the relative error of the scale is a number from 0 to 1, as 0.004");
+    }
     return FST_OK;
 }
 
@@ -186,7 +188,7 @@ fst_status track_read_columns(const fst_text *text, size_t header, int variant, 
         status = take_units(&r);
     raw->is_whole = r.columns[NAME].place && r.columns[DOUBTS].place;
     if (status == FST_OK)
-        status = take_scale_error(&r);
+        status = take_comments(&r);
     while (status == FST_OK) {
         status = fst_text_row(&r.table, &more);
         if (status != FST_OK || !more)

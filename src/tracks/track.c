@@ -102,6 +102,8 @@ fst_status fst_tracks_write(const char *path, const fst_track *track, int count,
         (void)fputs(TRACK_SCALE_ERROR, file.stream);
         put(file.stream, track->scale_error, '\n');
     }
+    if (track->rhythm)
+        (void)fputs(TRACK_RHYTHM "\n", file.stream);
     (void)fprintf(file.stream, "frame,%sx [%s],y [%s]%s", timed ? "t [s]," : "", unit, unit,
                   count > 1 ? ",track,doubts" : "");
     if (count == 1 && track->turning)

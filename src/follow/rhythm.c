@@ -1,0 +1,291 @@
+/* rhythm.c - what of a filmed bead's motion repeats itself: two rates by its places, and W by its rotations.
+ *
+ * A window of eleven frames flattens what changes within five.  What repeats itself is known better than any window
+ * would have it, because the whole film shows it, so the window is left with the rest.
+ */
+#include "follow/rhythm.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/constants.h"
+#include "base/dot.h"
+#include "base/turn.h"
+
+enum {
+    UNKNOWNS = FOLLOW_WAVES,
+    SUBSTEPS = 4,
+    REPEATS = 4,
+    MOST_REPEATS = 10,
+    FIRST_LINES = 2,
+    FIRST_FRAMES = 600,
+    GRID = 4
+};
+
+#define LEAST_TURNS 3.0 /* of the bead around the centre */
+
+/* Least squares with up to UNKNOWNS unknowns. */
+typedef struct equations {
+    int count;
+    double normal[UNKNOWNS * UNKNOWNS], right[UNKNOWNS];
+} equations;
+
+static void add(equations *e, const double *row, double off, double weight)
+{
+    for (int p = 0; p < e->count; ++p) {
+        e->right[p] += weight * row[p] * off;
+        for (int q = 0; q < e->count; ++q)
+            e->normal[p * e->count + q] += weight * row[p] * row[q];
+    }
+}
+
+/* The arrow of number k, which turns at w_b + (k - lines) w_r. */
+static double arrow(const follow_rhythm *r, int k, double time, double at[2])
+{
+    const double rate = r->rates[0] + (k - r->lines) * r->rates[1], angle = rate * (time - r->start);
+    at[0] = cos(angle);
+    at[1] = sin(angle);
+    return rate;
+}
+
+/* ------------------------------------------------------------------ places */
+
+void follow_rhythm_place(const follow_rhythm *r, double time, double place[2], double velocity[2])
+{
+    place[0] = place[1] = velocity[0] = velocity[1] = 0.0;
+    for (int k = 0; k <= 2 * r->lines && r->lines > 0; ++k) {
+        const double *c = r->place + 2 * k;
+        double a[2];
+        const double rate = arrow(r, k, time, a), x = c[0] * a[0] - c[1] * a[1], y = c[0] * a[1] + c[1] * a[0];
+        place[0] += x;
+        place[1] += y;
+        velocity[0] -= rate * y;
+        velocity[1] += rate * x;
+    }
+}
+
+/* Fit arrows, the centre and, by the arrows there are, changes of the rates to the first frames.  Returns the mean square that is left of the
+ * places before the changes. */
+static double fit_places(const follow_turning *t, int frames, follow_rhythm *r, int rates)
+{
+    const int arrows = 2 * (2 * r->lines + 1);
+    equations e = {.count = arrows + 2 + (rates ? 2 : 0)};
+    double squares = 0.0;
+    for (int i = 0; i < frames; ++i) {
+        const follow_turn *f = &t->turns[i];
+        double rows[2][UNKNOWNS] = {{0.0}, {0.0}};
+        squares += fst_dot(f->place, f->place, 2);
+        for (int k = 0; k <= 2 * r->lines; ++k) {
+            const double *c = r->place + 2 * k;
+            double a[2];
+            (void)arrow(r, k, f->time, a);
+            rows[0][2 * k] = rows[1][2 * k + 1] = a[0];
+            rows[0][2 * k + 1] = -a[1];
+            rows[1][2 * k] = a[1];
+            for (int which = 0; which < 2 && rates; ++which) {
+                const double by = (f->time - r->start) * (which ? k - r->lines : 1);
+                rows[0][arrows + 2 + which] -= by * (c[0] * a[1] + c[1] * a[0]);
+                rows[1][arrows + 2 + which] += by * (c[0] * a[0] - c[1] * a[1]);
+            }
+        }
+        for (int axis = 0; axis < 2; ++axis) {
+            rows[axis][arrows + axis] = 1.0;
+            add(&e, rows[axis], f->place[axis], 1.0);
+        }
+    }
+    double found[UNKNOWNS];
+    memcpy(found, e.right, sizeof found);
+    if (!follow_solve(e.normal, found, e.count))
+        return INFINITY;
+    memcpy(r->place, found, (size_t)(arrows + 2) * sizeof *found);
+    for (int which = 0; which < 2 && rates; ++which)
+        r->rates[which] += found[arrows + 2 + which];
+    return squares - fst_dot(found, e.right, e.count);
+}
+
+/* The rate at which the bead goes round its centre.  Returns 0 where it hardly does. */
+static int goes_round(const follow_turning *t, follow_rhythm *r)
+{
+    double middle[2] = {0.0, 0.0}, turned = 0.0, before = 0.0;
+    for (int i = 0; i < t->count; ++i)
+        for (int k = 0; k < 2; ++k)
+            middle[k] += t->turns[i].place[k] / t->count;
+    for (int i = 0; i < t->count; ++i) {
+        const double *place = t->turns[i].place, angle = atan2(place[1] - middle[1], place[0] - middle[0]);
+        turned += i > 0 ? remainder(angle - before, FST_TWO_PI) : 0.0;
+        before = angle;
+    }
+    r->rates[0] = turned / (t->turns[t->count - 1].time - r->start);
+    return fabs(turned) > LEAST_TURNS * FST_TWO_PI;
+}
+
+/* Both rates, first by the first frames: that of the distance is the one whose three arrows leave least of the places. */
+static int find_rates(const follow_turning *t, follow_rhythm *r)
+{
+    int frames = t->count < FIRST_FRAMES ? t->count : FIRST_FRAMES;
+    const double span = t->turns[frames - 1].time - r->start;
+    double least = INFINITY, rate = 0.0;
+    r->lines = 1;
+    for (int k = 2 * GRID; k < GRID * frames / 2; ++k) {
+        r->rates[1] = FST_TWO_PI * k / (GRID * span);
+        const double left = fit_places(t, frames, r, 0);
+        if (left < least) {
+            least = left;
+            rate = r->rates[1];
+        }
+    }
+    r->rates[1] = rate;
+    for (int is_last = 0; !is_last; frames = 2 * frames < t->count ? 2 * frames : t->count) {
+        is_last = frames == t->count;
+        for (int repeat = 0; repeat < REPEATS; ++repeat) {
+            r->lines = repeat == 0 ? 1 : FIRST_LINES;
+            (void)fit_places(t, frames, r, 0);
+            least = fit_places(t, frames, r, 1);
+        }
+    }
+    return isfinite(least);
+}
+
+/* ------------------------------------------------------------------ rotations */
+
+/* W of each unknown at a time; returns how many there are. */
+static int waves(const follow_rhythm *r, double time, double w[UNKNOWNS][3])
+{
+    int p = 0;
+    for (int k = 0; k <= 2 * r->lines; ++k) {
+        double a[2];
+        (void)arrow(r, k, time, a);
+        memcpy(w[p++], (double[3]){a[0], a[1], 0.0}, sizeof *w);
+        memcpy(w[p++], (double[3]){-a[1], a[0], 0.0}, sizeof *w);
+    }
+    for (int j = 0; j <= r->lines; ++j) {
+        const double angle = j * r->rates[1] * (time - r->start);
+        memcpy(w[p++], (double[3]){0.0, 0.0, cos(angle)}, sizeof *w);
+        if (j > 0)
+            memcpy(w[p++], (double[3]){0.0, 0.0, sin(angle)}, sizeof *w);
+    }
+    return p;
+}
+
+void follow_rhythm_rate(const follow_rhythm *r, double time, double rate[3])
+{
+    double w[UNKNOWNS][3];
+    const int count = r->lines > 0 ? waves(r, time, w) : 0;
+    for (int i = 0; i < 3; ++i) {
+        rate[i] = 0.0;
+        for (int p = 0; p < count; ++p)
+            rate[i] += r->rate[p] * w[p][i];
+    }
+}
+
+/* What two rotations know of the turning from one to the other: (A^-1 + B^-1)^-1 = A (A + B)^-1 B. */
+static int known_between(const follow_turn *a, const follow_turn *b, double known[3][3])
+{
+    for (int j = 0; j < 3; ++j) {
+        double sum[9], column[3];
+        for (int i = 0; i < 9; ++i)
+            sum[i] = a->known[i / 3][i % 3] + b->known[i / 3][i % 3] + (i % 4 == 0 ? 1e-3 : 0.0);
+        for (int i = 0; i < 3; ++i)
+            column[i] = b->known[i][j];
+        if (!follow_solve(sum, column, 3))
+            return 0;
+        for (int i = 0; i < 3; ++i)
+            known[i][j] = fst_dot(a->known[i], column, 3);
+    }
+    return 1;
+}
+
+/* The turning from one frame to the next by the waves, and how it changes with each of them: `off` is what is missing. */
+static void turning_between(const follow_rhythm *r, const follow_turn *a, const follow_turn *b, double off[3],
+                            double change[3][UNKNOWNS])
+{
+    const double step = (b->time - a->time) / SUBSTEPS;
+    double turn[3][3], since[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}},
+                       sums[UNKNOWNS][3] = {{0.0}}, w[UNKNOWNS][3];
+    int count = 0;
+    memcpy(turn, a->pose.turn, sizeof turn);
+    for (int k = 0; k < SUBSTEPS; ++k) {
+        double by[3] = {0.0, 0.0, 0.0}, half[3];
+        count = waves(r, a->time + (k + 0.5) * step, w);
+        for (int p = 0; p < count; ++p)
+            for (int i = 0; i < 3; ++i)
+                by[i] += step * r->rate[p] * w[p][i];
+        for (int i = 0; i < 3; ++i)
+            half[i] = 0.5 * by[i];
+        fst_turn_by(turn, by);
+        fst_turn_by(since, half);
+        for (int p = 0; p < count; ++p) /* R(s)^T w, R being the turning since the first frame */
+            for (int i = 0; i < 3; ++i)
+                sums[p][i] += step * (since[0][i] * w[p][0] + since[1][i] * w[p][1] + since[2][i] * w[p][2]);
+        fst_turn_by(since, half);
+    }
+    fst_turn_between((const double(*)[3])turn, b->pose.turn, off);
+    for (int p = 0; p < count; ++p)
+        for (int i = 0; i < 3; ++i)
+            change[i][p] = fst_dot(since[i], sums[p], 3);
+}
+
+/* One step towards the waves that explain the rotations.  Returns chi^2 before it, of `numbers` numbers. */
+static double fit_rotations(const follow_turning *t, double usual, follow_rhythm *r, int *numbers)
+{
+    equations e = {.count = 3 * (2 * r->lines + 1)};
+    double chi2 = 0.0;
+    *numbers = 0;
+    for (int i = 0; i + 1 < t->count; ++i) {
+        const follow_turn *a = &t->turns[i], *b = a + 1;
+        double off[3], known[3][3], change[3][UNKNOWNS];
+        if (!a->good || !b->good || b->time - a->time > 1.5 * usual || !known_between(a, b, known))
+            continue;
+        turning_between(r, a, b, off, change);
+        for (int k = 0; k < 3; ++k) {
+            double row[UNKNOWNS];
+            const double known_off = fst_dot(known[k], off, 3);
+            chi2 += off[k] * known_off;
+            for (int p = 0; p < e.count; ++p) {
+                row[p] = known[k][0] * change[0][p] + known[k][1] * change[1][p] + known[k][2] * change[2][p];
+                e.right[p] += change[k][p] * known_off;
+            }
+            for (int p = 0; p < e.count; ++p)
+                for (int q = 0; q < e.count; ++q)
+                    e.normal[p * e.count + q] += change[k][p] * row[q];
+        }
+        *numbers += 3;
+    }
+    if (!follow_solve(e.normal, e.right, e.count))
+        return INFINITY;
+    for (int p = 0; p < e.count; ++p)
+        r->rate[p] += e.right[p];
+    return chi2;
+}
+
+/* So many lines; returns Schwarz's criterion, by which each number of the rhythm has to earn its place. */
+static double try_lines(const follow_turning *t, double usual, follow_rhythm *r)
+{
+    const double unknown = 3 * (2 * r->lines + 1);
+    double chi2 = INFINITY, before = INFINITY;
+    int numbers = 1;
+    (void)fit_places(t, t->count, r, 0);
+    memset(r->rate, 0, sizeof r->rate);
+    for (int repeat = 0; repeat < MOST_REPEATS && (repeat < REPEATS || chi2 < (1.0 - 1e-6) * before);
+         ++repeat) {
+        before = chi2;
+        chi2 = fit_rotations(t, usual, r, &numbers);
+    }
+    return numbers > unknown ? numbers * log(chi2 / numbers) + unknown * log(numbers) : INFINITY;
+}
+
+void follow_rhythm_find(const follow_turning *turning, double usual, follow_rhythm *rhythm)
+{
+    *rhythm = (follow_rhythm){.start = turning->turns[0].time};
+    follow_rhythm tried = *rhythm;
+    double least = INFINITY;
+    if (!goes_round(turning, &tried) || !find_rates(turning, &tried))
+        return;
+    for (tried.lines = 0; tried.lines <= FOLLOW_LINES; ++tried.lines) {
+        const double criterion = try_lines(turning, usual, &tried);
+        if (criterion < least) {
+            least = criterion;
+            *rhythm = tried;
+        }
+    }
+}

@@ -1,0 +1,32 @@
+/* rhythm.h - what of a filmed bead's motion repeats itself.
+ *
+ * Seen from the magnet a settled motion repeats itself.  Seen from the plate, velocity and W_x + i W_y are then sums of
+ * arrows that turn at the rates w_b + j w_r, and W_z is one of waves at j w_r: w_b is the rate at which the bead goes
+ * round, w_r that at which its distance from the centre swings, and j is a whole number.
+ */
+#ifndef FST_FOLLOW_RHYTHM_H
+#define FST_FOLLOW_RHYTHM_H
+
+#include "follow/turning.h"
+
+enum {
+    FOLLOW_LINES = 16,
+    FOLLOW_ARROWS = 2 * (2 * FOLLOW_LINES + 1),
+    FOLLOW_WAVES = 3 * (2 * FOLLOW_LINES + 1)
+};
+
+typedef struct follow_rhythm {
+    int lines;       /* the greatest j; 0: nothing repeats itself */
+    double start;    /* s, the time from which phases count */
+    double rates[2]; /* w_b, w_r, rad/s */
+    double place[FOLLOW_ARROWS + 2], rate[FOLLOW_WAVES];
+} follow_rhythm;
+
+/* Find it in the good frames, which usually are `usual` (s) apart. */
+void follow_rhythm_find(const follow_turning *turning, double usual, follow_rhythm *rhythm);
+
+/* The place (mm), the velocity (mm/s) and W (rad/s) of what repeats itself. */
+void follow_rhythm_place(const follow_rhythm *rhythm, double time, double place[2], double velocity[2]);
+void follow_rhythm_rate(const follow_rhythm *rhythm, double time, double rate[3]);
+
+#endif
