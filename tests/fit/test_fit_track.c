@@ -54,10 +54,10 @@ static void test_a_film_that_begins_too_early(void **state)
 
 /* The slip that the bead's marks showed agrees with the model's, in a picture as it is and, of a bead
  * larger by 1 %, mirrored, and says more of the friction than places that scatter by 0.3 mm do; slip of another motion is not believed, and errors that are too
- * small are widened; the numbers survive being written and read. */
+ * small are widened; the numbers survive being written and read, and with them that no window smoothed the slip. */
 static void test_slip(void **state)
 {
-    enum { WITHOUT, AS_IT_IS, MIRRORED, BACKWARDS, TOO_SURE, READ, CASES };
+    enum { WITHOUT, AS_IT_IS, MIRRORED, BACKWARDS, TOO_SURE, READ, WHOLE, CASES };
     double misfit[CASES], error[CASES];
     for (int which = 0; which < CASES; ++which) {
         fst_track track;
@@ -73,12 +73,21 @@ static void test_slip(void **state)
         for (size_t i = 0; i < track.rows && which == BACKWARDS; ++i)
             for (int k = 0; k < 2; ++k)
                 track.turning[i].slip[k] *= -1.0;
-        if (which == READ) {
+        const film *f = *state;
+        for (int i = 0; i < (int)track.rows && which == WHOLE; ++i) {
+            track.rhythm = 1;
+            track.turning[i].slip_error *= 0.25;
+            for (int k = 0; k < 2; ++k)
+                track.turning[i].slip[k] =
+                    f->slip[EACH * i][k] + track.turning[i].slip_error * fit_normal(&seed);
+        }
+        if (which == READ || which == WHOLE) {
             const fst_track_options reading = fst_default_track_options();
             assert_int_equal(fst_track_write("slip.csv", &track, NULL), FST_OK);
             fst_track_free(&track);
             assert_int_equal(fst_track_read("slip.csv", &reading, &track, NULL, NULL), FST_OK);
             (void)remove("slip.csv");
+            assert_int_equal(track.rhythm, which == WHOLE);
         }
         options.drive = mirrored ? -11.3 : 11.3;
         must_fit(&track, &options, &fit);
@@ -101,6 +110,7 @@ static void test_slip(void **state)
                 0.1); /* what is left tells that errors are too small */
     assert_true(misfit[BACKWARDS] > 5.0 && error[BACKWARDS] > 0.8 * error[WITHOUT]);
     assert_true(fabs(misfit[READ] - misfit[AS_IT_IS]) < 1e-3);
+    assert_true(fabs(misfit[WHOLE] - 1.0) < 0.1);
 }
 
 /* A scale that is wrong by a tenth gives a path that the model does not have: the places are farther from it than they
