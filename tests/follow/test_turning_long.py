@@ -3,7 +3,7 @@ marks, and a wrong diameter.
 
 Without ffmpeg the test is skipped.
 
-tests: follow/turning.c follow/pose.c follow/light.c follow/spin.c follow/patch.c film/marks.c
+tests: follow/turning.c follow/pose.c follow/light.c follow/spin.c follow/rhythm.c follow/patch.c film/marks.c
 labels: long"""
 
 import math
