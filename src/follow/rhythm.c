@@ -22,7 +22,7 @@ enum {
     GRID = 4
 };
 
-#define LEAST_TURNS 3.0 /* of the bead around the centre */
+#define LEAST_TURNS 2.0 /* of the bead around the centre */
 
 /* Least squares with up to UNKNOWNS unknowns. */
 typedef struct equations {
