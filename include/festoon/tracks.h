@@ -48,7 +48,7 @@ typedef struct fst_track {
     unsigned char *flag;  /* fst_frame_flag */
     int *doubts;          /* how often until here the bead may have exchanged its name with another one's */
     fst_turning *turning; /* NULL: how the bead turns was not looked at */
-    int rhythm;           /* 1: the motion repeats itself, so that a turning's window lost none of it */
+    int rhythm; /* W and slip are so many harmonics of a motion that repeats itself; 0: those of the windows */
     char length_unit[FST_LENGTH_UNIT_SIZE]; /* "px", or a unit of params.def: "mm" */
     double
         scale_error; /* relative standard deviation of the length of a pixel, which all lengths share; 0: unknown,
@@ -67,7 +67,7 @@ FST_API fst_status fst_track_append(fst_track *track, int64_t frame, double t, d
 FST_API fst_status fst_track_add_turning(fst_track *track, fst_error *error);
 
 /* Write a track as festoon's own CSV, whole or not at all: where the scale has an error, a comment
- * `# scale_error: 0.004`, where `rhythm` is set, `# rhythm: 1`; columns `frame,t [s],x [mm],y [mm]` with the track's
+ * `# scale_error: 0.004`, where there is a rhythm, `# rhythm: 3`; columns `frame,t [s],x [mm],y [mm]` with the track's
  * unit of length, a row a frame, empty cells where the bead was lost.  Rejected places are written as they are.
  * Without a clock there is no column `t [s]`.  A track with turning has columns for it, and empty cells where it is not
  * known. */

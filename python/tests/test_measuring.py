@@ -42,7 +42,7 @@ def test_turning(program, bead, tmp_path):
     names = "nx,ny,nz,n_error [rad],wx [rad/s],wy [rad/s],wz [rad/s],w_error [rad/s],slip_x [mm/s],slip_y [mm/s],slip_error [mm/s]"
     numbers = [0.6, 0.0, 0.8, 0.01, 1.0, 2.0, 3.0, 0.5, 100.0, -50.0, 200.0]
     noise = np.random.default_rng(1).normal(scale=0.05, size=(2, len(lab.t)))
-    lines = ["# rhythm: 1", f"frame,t [s],x [mm],y [mm],{names}"]
+    lines = ["# rhythm: 3", f"frame,t [s],x [mm],y [mm],{names}"]
     for i, (t, x, y) in enumerate(zip(lab.t, lab.x + noise[0], lab.y + noise[1])):
         known = numbers if i % 5 else [""] * 11
         lines.append(",".join(map(str, [i, t, x, y, *known])))
@@ -53,7 +53,7 @@ def test_turning(program, bead, tmp_path):
     assert np.isnan(track.turning["slip"][0]).all() and (known["slip"] == [100.0, -50.0]).all()
     assert (known["n"] == [0.6, 0, 0.8]).all() and (known["w"] == [1, 2, 3]).all() and (known["slip_error"] == 200).all()
     again = pickle.loads(pickle.dumps(track))
-    assert track._track.rhythm == again._track.rhythm == 1
+    assert track._track.rhythm == again._track.rhythm == 3
     assert again == track and np.array_equal(again.turning["w"], track.turning["w"], equal_nan=True)
     assert fs.read_track(path, scale="2mm").turning["slip"][1].tolist() == [200.0, -100.0]
     assert fs.Track({"t": [0, 1], "x": [0, 1], "y": [0, 1]}, unit="mm").turning is None

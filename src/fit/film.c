@@ -29,6 +29,7 @@ fst_status fit_film_take(fit_film *f, const fst_track *track, const fst_measurem
     double unit;
     char one[32];
     f->scale_error = track->scale_error;
+    f->rhythm = track->rhythm;
     f->t = calloc(room, sizeof *f->t);
     f->z = calloc(room, sizeof *f->z);
     f->weight = calloc(room, sizeof *f->weight);

@@ -34,6 +34,7 @@ typedef struct fit_film {
     fst_progress progress;     /* ours, told by all parts of the search */
     double rounds;             /* over all frames so far */
     int frames, used;          /* all; those of the present window */
+    int rhythm;                /* harmonics that the slip has; 0: a window made it */
     double step;               /* s, from one to the next; 0: no window smoothed the slip */
     int *row;                  /* of the track */
     double *t;

@@ -22,13 +22,16 @@ static int is_measured(const fit_film *f, int i)
     return f->slip_error[i] > 0.0 && isfinite(creal(f->slip[i]) + cimag(f->slip[i]));
 }
 
+/* As many frames as are independent: all frames together have 2 J + 1 numbers in J harmonics. */
 static void choose(fit_film *f)
 {
+    const int rows = f->row[f->frames - 1], most = 2 * f->rhythm + 1;
+    const int apart = f->rhythm ? rows / (most > LEAST_FRAMES ? most : LEAST_FRAMES) : 0;
     int next = 0;
     for (int i = 0; i < f->frames; ++i)
         if (f->weight[i] > 0.0 && is_measured(f, i) && f->row[i] >= next) {
             f->slip_at[f->slips++] = i;
-            next = f->row[i] + APART;
+            next = f->row[i] + (apart > APART ? apart : APART);
         }
 }
 

@@ -426,7 +426,8 @@ fst_status follow_spin(const follow_turning *turning, fst_track *track, fst_erro
         follow_rhythm_find(turning, usual, &rhythm);
         if (rhythm.lines > 0) {
             tell_all(turning, &rhythm, usual, axis, room, told + count);
-            track->rhythm = keep_rhythm(turning, &rhythm, told + count, told);
+            if (keep_rhythm(turning, &rhythm, told + count, told))
+                track->rhythm = rhythm.lines;
         }
         for (size_t i = 0; i < count; ++i)
             track->turning[turning->turns[i].frame] = told[i];

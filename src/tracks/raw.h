@@ -26,8 +26,8 @@ typedef struct track_spot {
 
 /* How the comment of festoon's own tracks begins that has the relative error of the scale. */
 #define TRACK_SCALE_ERROR "# scale_error: "
-/* ... and the one where the window of the turning lost nothing. */
-#define TRACK_RHYTHM "# rhythm: 1"
+/* ... and the one of its turning, in harmonics. */
+#define TRACK_RHYTHM "# rhythm: "
 
 enum { TRACK_NAME_SIZE = 64, TRACK_MOST_TRACKS = 65536 };
 

@@ -151,20 +151,30 @@ static void take_clock(reader *r)
     r->raw->time_unit = r->raw->time_unit > 0.0 ? r->raw->time_unit : 1.0;
 }
 
-/* festoon's own comments before the head: the relative error of the scale, and whether the motion repeats itself. */
-static fst_status take_comments(reader *r)
+/* A number behind such words in the comments before the head, from 0 to `most`, which is not reached. */
+static fst_status take_comment(reader *r, const char *words, double most, const char *expected, double *value)
 {
     const fst_text *text = r->table.text;
-    const size_t size = strlen(TRACK_SCALE_ERROR);
-    for (size_t i = 0; i + 1 < r->table.line; ++i) {
-        r->raw->rhythm |= strcmp(text->lines[i], TRACK_RHYTHM) == 0;
-        if (strncmp(text->lines[i], TRACK_SCALE_ERROR, size) == 0 &&
-            !(fst_text_number(text->lines[i] + size, &r->raw->scale_error) == FST_TEXT_NUMBER &&
-              r->raw->scale_error >= 0.0 && r->raw->scale_error < 1.0))
-            return fst_text_fail(text->path, i + 1, r->table.error,
-                                 "the relative error of the scale is a number from 0 to 1, as 0.004");
-    }
+    const size_t size = strlen(words);
+    for (size_t i = 0; i + 1 < r->table.line; ++i)
+        if (strncmp(text->lines[i], words, size) == 0 &&
+            !(fst_text_number(text->lines[i] + size, value) == FST_TEXT_NUMBER && *value >= 0.0 &&
+              *value < most))
+            return fst_text_fail(text->path, i + 1, r->table.error, "%s", expected);
     return FST_OK;
+}
+
+/* festoon's own comments: the relative error of the scale, and the harmonics of the turning. */
+static fst_status take_comments(reader *r)
+{
+    double rhythm = 0.0;
+    fst_status status =
+        take_comment(r, TRACK_SCALE_ERROR, 1.0,
+                     "the relative error of the scale is a number from 0 to 1, as 0.004", &r->raw->scale_error);
+    if (status == FST_OK)
+        status = take_comment(r, TRACK_RHYTHM, 1000.0, "the rhythm is a number of harmonics, as 3", &rhythm);
+    r->raw->rhythm = (int)rhythm;
+    return status;
 }
 
 fst_status track_read_columns(const fst_text *text, size_t header, int variant, track_raw *raw,

@@ -103,7 +103,7 @@ fst_status fst_tracks_write(const char *path, const fst_track *track, int count,
         put(file.stream, track->scale_error, '\n');
     }
     if (track->rhythm)
-        (void)fputs(TRACK_RHYTHM "\n", file.stream);
+        (void)fprintf(file.stream, TRACK_RHYTHM "%d\n", track->rhythm);
     (void)fprintf(file.stream, "frame,%sx [%s],y [%s]%s", timed ? "t [s]," : "", unit, unit,
                   count > 1 ? ",track,doubts" : "");
     if (count == 1 && track->turning)

@@ -298,7 +298,7 @@ static void spins_of(kind what, uint64_t seed, double most)
     assert_true(told >= FRAMES - 8);
     print_message("rhythm %d; W %d of %d, slip %d of %d within an error; slip off by %.1f mm/s\n", track.rhythm,
                   within[0], all[0], within[1], all[1], sqrt(squares / all[1]));
-    assert_int_equal(track.rhythm, what == REPEATS);
+    assert_int_equal(track.rhythm > 0, what == REPEATS);
     assert_true(sqrt(squares / all[1]) < most);
     for (int k = 0; k < 2; ++k) /* the other errors are upper bounds: W changes fast */
         assert_true(within[k] > 0.55 * all[k] && (what != ONCE || within[k] < 0.9 * all[k]));

@@ -81,6 +81,8 @@ class Points(Program):
         for wrong in ("much", "-0.1", "1", ""):
             bad = self.write("bad.csv", f"# scale_error: {wrong}\n" + tracks.own(rows, unit="mm"))
             self.assertIn("bad.csv:1", self.festoon("measure", bad, status=2).stderr)
+        bad = self.write("bad.csv", "# rhythm: -3\n" + tracks.own(rows, unit="mm"))
+        self.assertIn("number of harmonics", self.festoon("measure", bad, status=2).stderr)
         self.assertIn("not a relative error", self.festoon("fit", self.write(
             "bad.csv", "frequency [Hz],mean_r [mm],mean_r_error [mm],scale_error\n10,20,1,2\n"), "--free", "model.kappa",
             status=2).stderr)
