@@ -25,7 +25,8 @@
 #include "observe/marks.h"
 
 #define SHORTEST_STEP 1e-7
-/* Dry friction: a step so short stands before a kink of the curve, which is leapt over. */
+/* Dry friction: a step so short may stand before a kink of the curve, which is leapt over; and one so short does. */
+#define STEP_NEAR_KINK 4e-3
 #define STEP_AT_KINK 2e-4
 #define LARGEST_SPIN 60.0
 enum { MOST_NODES = 4000 };
@@ -43,15 +44,23 @@ static int is_twice_round(const fst_solution *s)
     return s->segments >= 2 && !s->symmetric && fst_state_distance(s->y[0], s->y[s->segments / 2]) < 1e-6;
 }
 
-/* Whether what was found is the curve's continuation over a step of length h: no further from the prediction than
- * `bound` of that, with a tangent that turned no further than to this cosine. */
+/* How a step goes: along the curve, over a kink that may be there, or over one that stands before it. */
+typedef enum gait { STRIDE, HOP, LEAP } gait;
+
+/* How far from the prediction, in lengths of the step, a solution may be, and to which cosine the tangent may have
+ * turned: after one iteration, and in the end. */
+static const double BOUNDS[][2][2] = {[STRIDE] = {{0.3, 0.94}, {0.25, 0.95}},
+                                      [HOP] = {{1.2, 0.4}, {1.0, 0.5}},
+                                      [LEAP] = {{3.0, -0.2}, {2.0, 0.0}}};
+
+/* Whether what was found is the curve's continuation over a step of length h. */
 static fst_status goes_on(const fst_family *family, const fst_node *here, const fst_solution *predicted,
-                          const fst_solution *found, double h, double bound, double cosine, fst_error *error)
+                          const fst_solution *found, double h, const double bounds[2], fst_error *error)
 {
     fst_direction miss;
     fst_direction_between(predicted, found, &miss);
-    if (length_of(family, found, &miss) <= bound * h && is_twice_round(found) <= is_twice_round(&here->s) &&
-        fst_direction_product(family, found, &found->tangent, &here->s.tangent) >= cosine)
+    if (length_of(family, found, &miss) <= bounds[0] * h && is_twice_round(found) <= is_twice_round(&here->s) &&
+        fst_direction_product(family, found, &found->tangent, &here->s.tangent) >= bounds[1])
         return FST_OK;
     return fst_fail(error, FST_NO_CONVERGENCE, "continuation", "a step of %.3g was too long at %.10g", h,
                     here->s.value);
@@ -61,7 +70,7 @@ static fst_status goes_on(const fst_family *family, const fst_node *here, const 
  * at the start).  FST_NO_CONVERGENCE also where the solution found is not the curve's continuation: too far
  * from the prediction, or with a tangent of another direction. */
 static fst_status try_step(const fst_curve *curve, const fst_node *last, const fst_node *here, double h,
-                           int over_kink, fst_node *next, fst_error *error)
+                           gait how, fst_node *next, fst_error *error)
 {
     const fst_family *family = curve->family;
     fst_direction way = here->s.tangent, miss;
@@ -77,13 +86,11 @@ static fst_status try_step(const fst_curve *curve, const fst_node *last, const f
     fst_solution found = predicted;
     fst_status status = fst_solution_approach(family, &found, &here->s.tangent, error);
     if (status == FST_OK)
-        status =
-            goes_on(family, here, &predicted, &found, h, over_kink ? 3.0 : 0.3, over_kink ? -0.2 : 0.94, error);
+        status = goes_on(family, here, &predicted, &found, h, BOUNDS[how][0], error);
     if (status == FST_OK)
         status = fst_solution_correct(family, &found, &here->s.tangent, error);
     if (status == FST_OK)
-        status =
-            goes_on(family, here, &predicted, &found, h, over_kink ? 2.0 : 0.25, over_kink ? 0.0 : 0.95, error);
+        status = goes_on(family, here, &predicted, &found, h, BOUNDS[how][1], error);
     if (status != FST_OK)
         return status;
     const int iterations = found.iterations + (found.segments > 0);
@@ -166,16 +173,15 @@ static int has_ended(fst_curve *curve, const fst_node *start, const fst_node *he
 }
 
 /* Dry friction: over a kink of the curve, where an orbit gains or loses a rest or a flight, Newton's method finds the other
- * side from here, but no continuation does.  1 if there is one, at the distance *h. */
-static int leap(const fst_curve *curve, const fst_node *here, fst_node *next, double *h, int *left)
+ * side from here, but no continuation does.  1 if there is one, at the distance *h, from `length` on. */
+static int leap(const fst_curve *curve, const fst_node *here, gait how, double length, fst_node *next,
+                double *h, int *left)
 {
-    static const double far[] = {5.0, 20.0, 80.0};
     fst_error ignored;
-    for (size_t i = 0; i < sizeof far / sizeof *far; ++i) {
-        const double length = far[i] * STEP_AT_KINK;
-        if (try_step(curve, NULL, here, length, 1, next, &ignored) != FST_OK ||
-            (here->captures == 0 && next->captures == 0) || next->s.value > curve->to ||
-            next->s.value < curve->from)
+    for (int i = 0; i < 3; ++i, length *= 4.0) {
+        if (try_step(curve, NULL, here, length, how, next, &ignored) != FST_OK ||
+            (how == HOP ? here->captures == next->captures : here->captures == 0 && next->captures == 0) ||
+            next->s.value > curve->to || next->s.value < curve->from)
             continue;
         *left = 0;
         *h = length;
@@ -190,8 +196,10 @@ static int next_node(fst_curve *curve, const fst_node *last, const fst_node *her
                      int *left)
 {
     fst_error why;
-    for (;;) {
-        fst_status status = try_step(curve, last, here, *h, 0, next, &why);
+    const double wanted = *h;
+    const int kinks = fst_family_rests(curve->family) && here->s.segments > 0;
+    for (int near = 0;;) {
+        fst_status status = try_step(curve, last, here, *h, STRIDE, next, &why);
         *left = status == FST_OK && (next->s.value > curve->to || next->s.value < curve->from);
         if (*left)
             status = land_on(curve, here, next->s.value > curve->to ? curve->to : curve->from, next, &why);
@@ -200,11 +208,16 @@ static int next_node(fst_curve *curve, const fst_node *last, const fst_node *her
         *h *= 0.5;
         if (*h < SHORTEST_STEP || fst_watch_ask(curve->family->watch, &why) != FST_OK)
             break;
-        if (fst_family_rests(curve->family) && here->s.segments > 0 && *h < STEP_AT_KINK) {
-            if (leap(curve, here, next, h, left))
+        const int at = kinks && *h < STEP_AT_KINK;
+        if (at || (kinks && !near && *h < STEP_NEAR_KINK)) {
+            if (leap(curve, here, at ? LEAP : HOP, at ? 5.0 * STEP_AT_KINK : 2.0 * *h, next, h, left)) {
+                *h = fmax(*h, 0.25 * wanted);
                 return 1;
-            break;
+            }
+            near = 1;
         }
+        if (at)
+            break;
     }
     if (here->s.segments == 0 && fst_family_rests(curve->family) && here->seen.slip < 1e-4)
         fst_curve_end_set(&curve->end, FST_END_ROLLS,
@@ -256,7 +269,8 @@ static fst_status follow(fst_curve *curve, const fst_node *start, int sign, fst_
     here.length = 0.0;
     for (;;) {
         int left;
-        const int found = next_node(curve, nodes > 0 && !moved ? &last : NULL, &here, &h, &next, &left);
+        const int bent = nodes > 0 && !moved && last.captures == here.captures; /* as in the step before */
+        const int found = next_node(curve, bent ? &last : NULL, &here, &h, &next, &left);
         if (!found && !moved && begin_elsewhere(curve, &here)) {
             moved = 1;
             h = 0.1 * longest;

@@ -101,6 +101,7 @@ typedef struct round_trip {
     fst_params params;
     fst_model *model;
     fst_flow *flow;
+    double changed; /* when the contact began to slip, rest or fly; NAN: before the start */
     fst_window window;
     fst_mark_series ends; /* marks of the orbit's start and end, between which the means are taken */
     extremes_of_r extremes_met;
@@ -111,6 +112,16 @@ static void mark_end(round_trip *trip)
     fst_mark mark;
     fst_mark_take(&mark, &trip->window.quadrature, trip->flow, 1.0, 1);
     fst_marks_offer(&trip->ends, &mark);
+}
+
+/* Look for the end of a slip, a rest or a flight in the flow's last step.  An onset belongs to the slip it begins. */
+static void note_change(round_trip *trip, fst_description *out)
+{
+    const int next = trip->flow->contact.slip.next;
+    if (next < 0 || (fst_contact_mode(trip->flow) == FST_MODE_ONSET && next == FST_MODE_SLIP))
+        return;
+    out->shortest = fmin(out->shortest, trip->flow->t.high - trip->changed);
+    trip->changed = trip->flow->t.high;
 }
 
 /* An orbit means nothing where the field is not known. */
@@ -150,6 +161,7 @@ static fst_status go_round(round_trip *trip, const fst_family *family, double pe
         if (extremes)
             fst_extremes_step(window->extremes, &window->quadrature, trip->flow, 0.0);
         look_at_step(trip->flow, &trip->extremes_met, out);
+        note_change(trip, out);
         out->flights += !fst_flight_is_on(trip->flow) && trip->flow->contact.slip.next == FST_MODE_FLIGHT;
     }
     mark_end(trip);
@@ -191,11 +203,13 @@ fst_status fst_describe_orbit(const fst_family *family, const fst_solution *s, i
     memset(out, 0, sizeof *out);
     fst_result_clear(&out->means);
     out->closest = NAN;
+    out->shortest = INFINITY;
     round_trip *trip = calloc(1, sizeof *trip);
     if (!trip)
         return fst_watch_end(family->watch,
                              fst_fail(error, FST_NO_MEMORY, "fst_describe_orbit", "out of memory"), error);
     trip->params = fst_family_params(family, s->value);
+    trip->changed = NAN;
     fst_status status =
         fst_solution_flow(family, s->value, s->y[0], family->tolerance, &trip->model, &trip->flow, error);
     if (status == FST_OK)

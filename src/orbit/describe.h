@@ -15,6 +15,7 @@ typedef struct fst_description {
     double least_load;              /* least normal load per mass */
     int captures;                   /* slips that come to rest in a period, under a law with modes, */
     int flights;                    /* and how often the bead leaves the plate */
+    double shortest; /* of its slips, rests and flights that begin and end on the way; INFINITY: none does */
 } fst_description;
 
 /* Follow a corrected orbit once round.  `extremes`: locate them too. */

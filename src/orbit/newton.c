@@ -360,7 +360,7 @@ fst_status fst_solution_correct(const fst_family *family, fst_solution *s, const
         fst_status status = fst_newton_equations(family, s, &l, error);
         if (status != FST_OK)
             return status;
-        if (fst_newton_is_done(family, s->residual, before))
+        if (fst_newton_is_done(family, s, before))
             return family->key >= 0 ? find_tangent(family, s, &l, across, error) : FST_OK;
         if (!isfinite(s->residual) || (s->iterations > patience && s->residual > before))
             break;

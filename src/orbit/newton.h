@@ -4,16 +4,17 @@
 
 #include "orbit/solution.h"
 
-/* A disc of contact pivots by 1e-9 where it is held (model/disc.c): below this a residual falls no further. */
-#define FST_RESIDUAL_OF_A_DISC 1e-10
+/* Dry friction: a slip that ends and begins is known to the tolerance, and a long orbit that repels makes more of that; a
+ * disc of contact pivots by 1e-9 where it is held (model/disc.c).  So a residual may stand still as high as this. */
+#define FST_RESIDUAL_OF_RESTS 1e-10
 
 /* Whether Newton's method has nothing left to do, or has found a solution and stands still; `before` is the
  * residual an iteration earlier. */
-static inline int fst_newton_is_done(const fst_family *family, double residual, double before)
+static inline int fst_newton_is_done(const fst_family *family, const fst_solution *s, double before)
 {
-    const int disc = family->params.contact_patch == FST_PATCH_HERTZ;
-    return residual < 0.1 * family->residual ||
-           (residual < (disc ? FST_RESIDUAL_OF_A_DISC : family->residual) && residual > 0.1 * before);
+    const int rests = fst_family_rests(family) && s->segments > 0;
+    return s->residual < 0.1 * family->residual ||
+           (s->residual < (rests ? FST_RESIDUAL_OF_RESTS : family->residual) && s->residual > 0.1 * before);
 }
 
 /* The linear system of one iteration.  Columns: the states in their tangent bases, the period of an orbit, the

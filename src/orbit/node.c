@@ -53,6 +53,7 @@ fst_status fst_node_make(const fst_family *family, const fst_solution *s, fst_no
         return status;
     node->closest = d.closest;
     node->captures = d.captures + d.flights;
+    node->shortest = d.shortest;
     p->mean_r = d.means.mean_r;
     p->min_r = fabs(d.closest);
     p->mean_alpha_dot = d.means.mean_alpha_dot;

@@ -8,10 +8,11 @@
 typedef struct fst_node {
     fst_solution s;
     fst_branch_point seen;
-    double closest; /* of an orbit: see describe.h */
-    int captures;   /* likewise, and flights */
-    int floats;     /* an equilibrium under dry friction that would need the plate to pull */
-    double length;  /* along the curve, from the node before */
+    double closest;  /* of an orbit: see describe.h */
+    int captures;    /* likewise, and flights */
+    double shortest; /* likewise */
+    int floats;      /* an equilibrium under dry friction that would need the plate to pull */
+    double length;   /* along the curve, from the node before */
 } fst_node;
 
 /* Spectrum and description of a corrected solution. */

@@ -38,6 +38,9 @@
 #include "orbit/normal_form.h"
 #include "orbit/special_test.h"
 
+/* Two solutions with a grazing between them, so close along the curve, show where it is. */
+#define GAP_AT_GRAZING 3e-6
+
 /* Between which two nodes one looks, and who hears of it. */
 typedef struct interval {
     const fst_family *family;
@@ -270,6 +273,8 @@ static fst_status report_turn(const interval *i, fst_error *error)
         const fst_status status = look_before_hopf_end(i, error);
         return status == FST_OK ? report_hopf_end(i, &at, frequency, error) : status;
     }
+    if (!i->sink->special && a->s.segments > 0) /* nobody hears of a fold */
+        return FST_OK;
     if (fst_locate_special(i->family, a, b, FST_TEST_FOLD, &at, &why) != FST_OK) {
         if (a->s.segments == 0) /* Newton's matrix is singular where two curves meet */
             fst_curve_end_set(i->end, FST_END_OTHER_BRANCH, "it ends on another branch near %.6g", b->s.value);
@@ -323,25 +328,49 @@ static int hides_something(const fst_node *a, const fst_node *b)
            change > 2 * pairs + fst_test_changes(a, b, FST_TEST_MINUS) + fst_test_changes(a, b, FST_TEST_PLUS);
 }
 
+/* The last two solutions that have the rest or flight which appears at a grazing. */
+typedef struct appearing {
+    double at[2], shortest[2]; /* the later one first; NAN: not known */
+} appearing;
+
+/* Where between `at` to look for a grazing next.  What appears there lasts as long as a push, or a slip, stays beyond the
+ * summit of a parabola: its time grows as the root of the distance.  So the squares of two such times show where it is
+ * nothing, and the end further away, `rests` being the one that has it, comes close to that place. */
+static double guess_grazing(const appearing *past, const double at[2], int rests)
+{
+    const double one = past->shortest[0] * past->shortest[0], two = past->shortest[1] * past->shortest[1];
+    const double off = one * (past->at[1] - past->at[0]) / (one - two); /* from the later one */
+    const int far = fabs(at[!rests] - at[rests] - off) > fabs(off) ? !rests : rests;
+    const double x = past->at[0] + (far == rests ? 0.95 : 1.05) * off;
+    return (x - at[0]) * (at[1] - x) > 0.0 ? x : 0.5 * (at[0] + at[1]);
+}
+
 /* Dry friction: between a and b an orbit gains or loses a rest or a flight, where a slip just dies, or a push just passes
  * the edge of the cone of static friction.  The place is known as well as solutions can be found beside it,
- * where the return has a kink or a jump. */
+ * where the return has a kink or a jump.  The closer they are, the dearer: the slip dies ever more slowly. */
 static void enclose_grazing(const interval *i, double at[2], fst_node beside[2])
 {
-    enum { HALVINGS = 14 };
+    enum { TRIES = 14 };
+    const int rests = i->b->captures > i->a->captures;
+    appearing past = {.at = {rests, NAN}, .shortest = {(rests ? i->b : i->a)->shortest, NAN}};
     fst_node middle;
     fst_error ignored;
     at[0] = 0.0, at[1] = 1.0;
     beside[0] = *i->a, beside[1] = *i->b;
-    for (int k = 0; k < HALVINGS && (at[1] - at[0]) * i->b->length > 1e-8; ++k) {
-        const double x = 0.5 * (at[0] + at[1]);
+    int poor = 0; /* guesses in a row that left more than half of the way */
+    for (int k = 0; k < TRIES && (at[1] - at[0]) * i->b->length > GAP_AT_GRAZING; ++k) {
+        const double gap = at[1] - at[0];
+        const double x = poor < 2 ? guess_grazing(&past, at, rests) : 0.5 * (at[0] + at[1]);
         fst_node far = beside[1];
-        far.length = (at[1] - at[0]) * i->b->length; /* the closer the two, the better is what lies between */
-        if (fst_node_between(i->family, &beside[0], &far, 0.5, &middle, &ignored) != FST_OK)
+        far.length = gap * i->b->length; /* the closer the two, the better is what lies between */
+        if (fst_node_between(i->family, &beside[0], &far, (x - at[0]) / gap, &middle, &ignored) != FST_OK)
             break;
         const int side = middle.captures != i->a->captures;
         at[side] = x;
         beside[side] = middle;
+        if (side == rests)
+            past = (appearing){{x, past.at[0]}, {middle.shortest, past.shortest[0]}};
+        poor = poor < 2 && at[1] - at[0] > 0.5 * gap ? poor + 1 : 0;
     }
 }
 
