@@ -178,7 +178,7 @@ static int leap(const fst_curve *curve, const fst_node *here, gait how, double l
                 double *h, int *left)
 {
     fst_error ignored;
-    for (int i = 0; i < 3; ++i, length *= 4.0) {
+    for (int i = 0; i < (how == HOP ? 1 : 3); ++i, length *= 4.0) {
         if (try_step(curve, NULL, here, length, how, next, &ignored) != FST_OK ||
             (how == HOP ? here->captures == next->captures : here->captures == 0 && next->captures == 0) ||
             next->s.value > curve->to || next->s.value < curve->from)

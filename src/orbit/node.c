@@ -68,6 +68,16 @@ fst_status fst_node_make(const fst_family *family, const fst_solution *s, fst_no
     return FST_OK;
 }
 
+fst_status fst_node_ahead(const fst_family *family, const fst_node *from, double length, fst_node *out,
+                          fst_error *error)
+{
+    fst_solution s = from->s;
+    s.on_section = 0;
+    fst_solution_move(&s, &from->s.tangent, length);
+    const fst_status status = fst_solution_correct(family, &s, &from->s.tangent, error);
+    return status == FST_OK ? fst_node_make(family, &s, out, error) : status;
+}
+
 /* ------------------------------------------------------------------ between two nodes */
 
 static double hermite(double a, double ta, double b, double tb, double h, double x)

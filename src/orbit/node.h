@@ -18,6 +18,10 @@ typedef struct fst_node {
 /* Spectrum and description of a corrected solution. */
 fst_status fst_node_make(const fst_family *family, const fst_solution *s, fst_node *node, fst_error *error);
 
+/* The solution `length` along the tangent of a node; the tangent there goes the same way. */
+fst_status fst_node_ahead(const fst_family *family, const fst_node *from, double length, fst_node *out,
+                          fst_error *error);
+
 /* A guess at the solution a fraction x of the way from a to b: the cubic through both with their tangents. */
 void fst_solution_between(const fst_node *a, const fst_node *b, double x, fst_solution *s);
 

@@ -39,7 +39,7 @@
 #include "orbit/special_test.h"
 
 /* Two solutions with a grazing between them, so close along the curve, show where it is. */
-#define GAP_AT_GRAZING 3e-6
+#define GAP_AT_GRAZING 1e-5
 
 /* Between which two nodes one looks, and who hears of it. */
 typedef struct interval {
@@ -333,24 +333,31 @@ typedef struct appearing {
     double at[2], shortest[2]; /* the later one first; NAN: not known */
 } appearing;
 
-/* Where between `at` to look for a grazing next.  What appears there lasts as long as a push, or a slip, stays beyond the
- * summit of a parabola: its time grows as the root of the distance.  So the squares of two such times show where it is
- * nothing, and the end further away, `rests` being the one that has it, comes close to that place. */
-static double guess_grazing(const appearing *past, const double at[2], int rests)
+/* Where it is nothing.  It lasts as long as a push, or a slip, stays beyond the summit of a parabola: its time grows as
+ * the root of the distance, and its square straight. */
+static double appears_at(const appearing *past)
 {
     const double one = past->shortest[0] * past->shortest[0], two = past->shortest[1] * past->shortest[1];
-    const double off = one * (past->at[1] - past->at[0]) / (one - two); /* from the later one */
-    const int far = fabs(at[!rests] - at[rests] - off) > fabs(off) ? !rests : rests;
-    const double x = past->at[0] + (far == rests ? 0.95 : 1.05) * off;
+    return past->at[0] + one * (past->at[1] - past->at[0]) / (one - two);
+}
+
+/* Where between `at` to look for a grazing next that is thought to be at `place`: the end further away comes close to
+ * that. */
+static double guess_grazing(double place, const double at[2])
+{
+    const int near = at[1] - place < place - at[0];
+    const double x = place + 0.05 * (place - at[near]);
     return (x - at[0]) * (at[1] - x) > 0.0 ? x : 0.5 * (at[0] + at[1]);
 }
 
 /* Dry friction: between a and b an orbit gains or loses a rest or a flight, where a slip just dies, or a push just passes
  * the edge of the cone of static friction.  The place is known as well as solutions can be found beside it,
- * where the return has a kink or a jump.  The closer they are, the dearer: the slip dies ever more slowly. */
-static void enclose_grazing(const interval *i, double at[2], fst_node beside[2])
+ * where the return has a kink or a jump.  The closer they are, the dearer: the slip dies ever more slowly.  Which of
+ * the two is the closer one. */
+static int enclose_grazing(const interval *i, double at[2], fst_node beside[2])
 {
     enum { TRIES = 14 };
+    const double length = i->b->length, wide = 0.01;
     const int rests = i->b->captures > i->a->captures;
     appearing past = {.at = {rests, NAN}, .shortest = {(rests ? i->b : i->a)->shortest, NAN}};
     fst_node middle;
@@ -358,12 +365,17 @@ static void enclose_grazing(const interval *i, double at[2], fst_node beside[2])
     at[0] = 0.0, at[1] = 1.0;
     beside[0] = *i->a, beside[1] = *i->b;
     int poor = 0; /* guesses in a row that left more than half of the way */
-    for (int k = 0; k < TRIES && (at[1] - at[0]) * i->b->length > GAP_AT_GRAZING; ++k) {
+    for (int k = 0; k < TRIES && (at[1] - at[0]) * length > GAP_AT_GRAZING; ++k) {
         const double gap = at[1] - at[0];
-        const double x = poor < 2 ? guess_grazing(&past, at, rests) : 0.5 * (at[0] + at[1]);
-        fst_node far = beside[1];
-        far.length = gap * i->b->length; /* the closer the two, the better is what lies between */
-        if (fst_node_between(i->family, &beside[0], &far, (x - at[0]) / gap, &middle, &ignored) != FST_OK)
+        const double x = poor < 2 ? guess_grazing(appears_at(&past), at) : 0.5 * (at[0] + at[1]);
+        const int from = x - at[0] > at[1] - x;
+        beside[1].length = gap * length;
+        /* Near a kink the tangent on its own side is the better guide. */
+        const fst_status status =
+            gap * length > wide
+                ? fst_node_between(i->family, &beside[0], &beside[1], (x - at[0]) / gap, &middle, &ignored)
+                : fst_node_ahead(i->family, &beside[from], (x - at[from]) * length, &middle, &ignored);
+        if (status != FST_OK)
             break;
         const int side = middle.captures != i->a->captures;
         at[side] = x;
@@ -372,6 +384,7 @@ static void enclose_grazing(const interval *i, double at[2], fst_node beside[2])
             past = (appearing){{x, past.at[0]}, {middle.shortest, past.shortest[0]}};
         poor = poor < 2 && at[1] - at[0] > 0.5 * gap ? poor + 1 : 0;
     }
+    return at[1] - appears_at(&past) < appears_at(&past) - at[0];
 }
 
 static fst_status look_between(const fst_family *family, const fst_curve_sink *sink, const fst_node *a,
@@ -383,7 +396,7 @@ static fst_status report_grazing(const interval *i, fst_error *error)
     const double much = 1e-3;
     double at[2];
     fst_node beside[2], last = *i->b;
-    enclose_grazing(i, at, beside);
+    const int near = enclose_grazing(i, at, beside);
     fst_status status = fst_watch_ask(i->family->watch, error);
     const double gap = (at[1] - at[0]) * i->b->length;
     beside[0].length = at[0] * i->b->length;
@@ -391,8 +404,8 @@ static fst_status report_grazing(const interval *i, fst_error *error)
     if (status == FST_OK && at[0] > 0.0)
         status = look_between(i->family, i->sink, i->a, &beside[0], i->end, error);
     if (status == FST_OK && i->end->type == FST_END_NONE)
-        status = tell(i, FST_SPECIAL_GRAZING, &beside[0], 0, NULL, error);
-    if (status == FST_OK && i->end->type == FST_END_NONE && gap > much * i->b->length) {
+        status = tell(i, FST_SPECIAL_GRAZING, &beside[near], 0, NULL, error);
+    if (status == FST_OK && i->end->type == FST_END_NONE && gap > fmax(much * i->b->length, GAP_AT_GRAZING)) {
         fst_node other = beside[1];
         other.length = gap;
         status = look_between(i->family, i->sink, &beside[0], &other, i->end, error);
@@ -412,6 +425,17 @@ fst_status fst_specials_between(const fst_family *family, const fst_curve_sink *
                                                            : look_between(family, sink, a, b, end, error);
 }
 
+/* Look on either side of a solution between the two. */
+static fst_status look_in_parts(const interval *i, const fst_node *between, fst_error *error)
+{
+    fst_node last = *i->b;
+    last.length -= between->length;
+    const fst_status first = fst_specials_between(i->family, i->sink, i->a, between, i->end, error);
+    return first != FST_OK || i->end->type != FST_END_NONE
+               ? first
+               : fst_specials_between(i->family, i->sink, between, &last, i->end, error);
+}
+
 /* What the tests show. */
 static fst_status look_between(const fst_family *family, const fst_curve_sink *sink, const fst_node *a,
                                const fst_node *b, fst_curve_end *end, fst_error *error)
@@ -421,12 +445,8 @@ static fst_status look_between(const fst_family *family, const fst_curve_sink *s
     fst_error why;
     /* Several crossings in one step may hide each other: look at its halves. */
     if (hides_something(a, b) && b->length > 1e-4 && fst_node_between(family, a, b, 0.5, &at, &why) == FST_OK) {
-        fst_node last = *b;
-        at.length = last.length = 0.5 * b->length;
-        const fst_status first = fst_specials_between(family, sink, a, &at, end, error);
-        return first != FST_OK || end->type != FST_END_NONE
-                   ? first
-                   : fst_specials_between(family, sink, &at, &last, end, error);
+        at.length = 0.5 * b->length;
+        return look_in_parts(&i, &at, error);
     }
     const int turn = fst_test_changes(a, b, FST_TEST_FOLD);
     fst_status status = turn ? report_turn(&i, error) : FST_OK;
@@ -434,8 +454,11 @@ static fst_status look_between(const fst_family *family, const fst_curve_sink *s
          ++test) {
         if (!fst_test_changes(a, b, test) || (test == FST_TEST_PLUS && turn))
             continue;
-        if (fst_locate_special(family, a, b, test, &at, &why) != FST_OK)
+        if (fst_locate_special(family, a, b, test, &at, &why) != FST_OK) {
+            if (a->captures == b->captures && at.captures != a->captures && at.length > 1e-4)
+                return look_in_parts(&i, &at, error); /* two grazings */
             continue;
+        }
         if (test == FST_TEST_PLUS && at.s.segments == 0) {
             fst_setup setup;
             at.s.value = at.seen.value = fst_pitchfork_value(family, a, b, &at);

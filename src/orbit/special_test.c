@@ -137,6 +137,22 @@ static int narrow_to_one_pair(const fst_family *family, const fst_node *a, const
     return (*f_lo < 0) != (*f_hi < 0);
 }
 
+/* The nearest solutions on either side, between which the next is guessed, and their places on the way. */
+typedef struct around {
+    fst_node node[2];
+    double at[2];
+} around;
+
+/* A solution on one side takes the place of that side's, unless both would be too close to show the curve's way. */
+static void close_in(around *near, const fst_node *node, double x, int side, double length)
+{
+    if (fabs(near->at[!side] - x) * length < 1e-5)
+        return;
+    near->node[side] = *node;
+    near->at[side] = x;
+    near->node[1].length = (near->at[1] - near->at[0]) * length;
+}
+
 fst_status fst_locate_special(const fst_family *family, const fst_node *a, const fst_node *b, int test,
                               fst_node *out, fst_error *error)
 {
@@ -150,10 +166,12 @@ fst_status fst_locate_special(const fst_family *family, const fst_node *a, const
     if (test == FST_TEST_PAIR && !narrow_to_one_pair(family, a, b, &z.lo, &z.hi, &z.f_lo, &z.f_hi))
         return fst_fail(error, FST_NO_CONVERGENCE, "special point", "no single pair crosses at %.10g",
                         a->s.value);
+    around near = {{*a, *b}, {0.0, 1.0}};
     for (int i = 0; i < 60 && (z.hi - z.lo) * b->length > 1e-13; ++i) {
         const double x = i % 6 == 5 ? 0.5 * (z.lo + z.hi) : fst_bracket_next(&z);
         fst_node node;
-        const fst_status status = fst_node_between(family, a, b, x, &node, error);
+        const fst_status status = fst_node_between(family, &near.node[0], &near.node[1],
+                                                   (x - near.at[0]) / (near.at[1] - near.at[0]), &node, error);
         /* Where two curves of equilibria meet, Newton's matrix is singular, and its method fails within some
          * 1e-7 of the place.  What was found so near is a place to interpolate about (fst_pitchfork_value). */
         if (status == FST_NO_CONVERGENCE && curves_meet && fabs(fst_test_value(out, test)) < 1e-4 * greatest)
@@ -163,11 +181,16 @@ fst_status fst_locate_special(const fst_family *family, const fst_node *a, const
         const double f = fst_test_value(&node, test);
         const double moved = fabs(node.s.value - out->s.value);
         *out = node;
+        out->length = x * b->length;
+        if (a->captures == b->captures && node.captures != a->captures)
+            return fst_fail(error, FST_NO_CONVERGENCE, "special point", "two grazings hide it at %.10g",
+                            node.s.value);
         if (!isfinite(f))
             return fst_fail(error, FST_NO_CONVERGENCE, "special point", "a test is undefined at %.10g",
                             node.s.value);
         if (fabs(f) <= least || (i > 1 && fabs(f) < 100.0 * least && moved < family->location * family->scale))
             break;
+        close_in(&near, &node, x, (f < 0) != (z.f_lo < 0), b->length);
         fst_bracket_take(&z, x, f);
     }
     if (!(fabs(fst_test_value(out, test)) < fmax(1e-8, 10.0 * noise)))

@@ -26,6 +26,19 @@ static fst_status take_node(void *user, const fst_node *node, fst_error *error)
     return status == FST_OK ? fst_branch_add_point(t->out, &node->seen, t->branch, error) : status;
 }
 
+/* Dry friction: where an orbit repels on both sides of a special point, what is born there repels too, and so do most
+ * of its children; their curves are long and dear, and no bead comes to them. */
+static int is_worth_following(const fst_tracer *t, const fst_node *at)
+{
+    const double critical = 1e-3; /* a multiplier so near to the circle is the one that crosses it */
+    if (t->options->kind != FST_BRANCH_COUNTER || !fst_family_rests(&t->family))
+        return 1;
+    for (int i = 0; i < at->s.multipliers; ++i)
+        if (hypot(at->s.re[i], at->s.im[i]) > 1.0 + critical)
+            return 0;
+    return 1;
+}
+
 static fst_status take_special(void *user, fst_special_type type, const fst_node *at, int criticality,
                                const fst_node *born, fst_error *error)
 {
@@ -48,7 +61,7 @@ static fst_status take_special(void *user, fst_special_type type, const fst_node
     if (t->options->second_key && type == t->options->special && t->start_count < FST_PENDING)
         t->starts[t->start_count++] = *at;
     if (born && t->pending_count < FST_PENDING && t->depth < 3 &&
-        (type != FST_SPECIAL_HOPF || t->follow_hopf)) {
+        (type != FST_SPECIAL_HOPF || t->follow_hopf) && is_worth_following(t, at)) {
         special.born = t->branch_count;
         /* Through a transcritical point the other branch passes: it is followed both ways. */
         const int one_way = type != FST_SPECIAL_TRANSCRITICAL;
