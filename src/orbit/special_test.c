@@ -160,6 +160,7 @@ fst_status fst_locate_special(const fst_family *family, const fst_node *a, const
     const double greatest = fmax(fabs(z.f_lo), fabs(z.f_hi));
     /* Tests of an orbit that is released from rests are known no better (ode/neighbours.c). */
     const double noise = a->captures + b->captures > 0 ? 1e-7 * fmax(1.0, greatest) : 0.0;
+    const double known = fmax(1e-8, 10.0 * noise); /* what is no jump */
     const double least = fmax(noise, family->location * (test == FST_TEST_PAIR ? 10.0 : fmin(1.0, greatest)));
     const int curves_meet = test == FST_TEST_PLUS && a->s.segments == 0;
     *out = fabs(z.f_lo) < fabs(z.f_hi) ? *a : *b;
@@ -188,12 +189,13 @@ fst_status fst_locate_special(const fst_family *family, const fst_node *a, const
         if (!isfinite(f))
             return fst_fail(error, FST_NO_CONVERGENCE, "special point", "a test is undefined at %.10g",
                             node.s.value);
-        if (fabs(f) <= least || (i > 1 && fabs(f) < 100.0 * least && moved < family->location * family->scale))
+        if (fabs(f) <= least ||
+            (i > 1 && fabs(f) < fmin(100.0 * least, known) && moved < family->location * family->scale))
             break;
         close_in(&near, &node, x, (f < 0) != (z.f_lo < 0), b->length);
         fst_bracket_take(&z, x, f);
     }
-    if (!(fabs(fst_test_value(out, test)) < fmax(1e-8, 10.0 * noise)))
+    if (!(fabs(fst_test_value(out, test)) < known))
         return fst_fail(error, FST_NO_CONVERGENCE, "special point", "a test jumps at %.10g", out->s.value);
     return FST_OK;
 }

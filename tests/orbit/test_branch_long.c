@@ -91,6 +91,17 @@ static void hopf_points_agree_between_orbits_and_equilibria(void **state)
     fst_branch_free(&equilibria);
 }
 
+/* Where an orbit ceases to attract its period doubles, and the branch that is born there is followed as far as the range
+ * goes, though its residuals stand still above 1e-12. */
+static void doubled_period_is_followed(const fst_branch *b)
+{
+    const fst_special *first = special_near(b, FST_SPECIAL_PERIOD_DOUBLING, 14.0707728);
+    assert_true(first->born > 0);
+    for (size_t i = 0; i < b->end_count; ++i)
+        if (b->ends[i].branch == first->born)
+            assert_int_equal(b->ends[i].type, FST_END_RANGE);
+}
+
 /* Over two blocks orbits that rest turn round where the greatest multiplier passes 1.  Their multipliers are known to
  * 1e-7 alone, and the point must not be lost in that. */
 static void a_fold_of_orbits_that_rest(void **state)
@@ -137,6 +148,7 @@ static void a_fold_of_orbits_that_rest(void **state)
     assert_true(b.points[least].value >= fold->value);
     assert_true(b.points[least - 1].value > fold->value && b.points[least + 1].value > fold->value);
     assert_int_not_equal(b.points[least - 1].stable, b.points[least + 1].stable);
+    doubled_period_is_followed(&b);
     fst_branch_free(&b);
 }
 

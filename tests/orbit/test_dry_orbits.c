@@ -264,7 +264,7 @@ static void grazing(void **unused)
     double rests[2];
     for (int k = 0; k < 2; ++k) {
         char text[32];
-        (void)snprintf(text, sizeof text, "%.17g", s->value + (k ? 1e-4 : -1e-4));
+        (void)snprintf(text, sizeof text, "%.17g", s->value + (k ? 1e-5 : -1e-5));
         assert_int_equal(fst_params_set(&params, "drive.omega", text, &error), FST_OK);
         rests[k] = orbit_of(&params).means.captures_per_return;
     }
