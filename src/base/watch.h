@@ -44,6 +44,7 @@ typedef struct fst_watch {
     const fst_progress *progress; /* NULL: no reports, and the work cannot be stopped */
     double share[2];              /* where the present part begins and ends in the whole work */
     double fraction;              /* largest fraction reported so far: progress never falls */
+    const char *what;             /* what is at work, for people; NULL: nothing to say */
     unsigned work;                /* evaluations since the last question */
     fst_status status;            /* other than FST_OK once the caller said stop, or memory ran out */
     fst_error error;              /* what was said then */
@@ -89,7 +90,8 @@ static inline fst_status fst_watch_ask(fst_watch *watch, fst_error *error)
         return FST_OK;
     watch->work = 0;
     if (watch->status == FST_OK && watch->progress)
-        watch->status = watch->progress->tell(watch->progress->user, watch->fraction, NULL, &watch->error);
+        watch->status =
+            watch->progress->tell(watch->progress->user, watch->fraction, watch->what, &watch->error);
     if (watch->status != FST_OK && error)
         *error = watch->error;
     return watch->status;

@@ -68,22 +68,23 @@ static void half_way(const fst_solution *s, double y[FST_STATE_SIZE])
         memcpy(y, s->y[s->segments / 2], FST_STATE_SIZE * sizeof *y);
 }
 
-/* How a solution differs from its image under S2. */
-static void asymmetry(const fst_solution *s, double difference[FST_STATE_SIZE])
+/* How a solution differs from what it is half a period on, or (`image`) from the image under S2 of that. */
+static void asymmetry(const fst_solution *s, int image, double difference[FST_STATE_SIZE])
 {
-    double half[FST_STATE_SIZE];
-    half_way(s, half);
-    fst_apply_s2(half, difference);
+    half_way(s, difference);
+    if (image)
+        fst_apply_s2(difference, difference);
     for (int k = 0; k < FST_STATE_SIZE; ++k)
         difference[k] -= s->y[0][k];
 }
 
-/* Whether a curve passes through a solution that is its own image: then it goes on as its own image. */
-static int becomes_its_image(const fst_node *a, const fst_node *b)
+/* Whether a curve passes through a solution that is its own image, or repeats itself after half the period: then it goes
+ * on as its own image, or half a period on. */
+static int becomes_its_image(const fst_node *a, const fst_node *b, int image)
 {
     double at_a[FST_STATE_SIZE], at_b[FST_STATE_SIZE], size = 0.0;
-    asymmetry(&a->s, at_a);
-    asymmetry(&b->s, at_b);
+    asymmetry(&a->s, image, at_a);
+    asymmetry(&b->s, image, at_b);
     for (int k = 0; k < FST_STATE_SIZE; ++k)
         size += at_a[k] * at_a[k] + at_b[k] * at_b[k];
     return size > 1e-12 && fst_dot(at_a, at_b, FST_STATE_SIZE) < -0.01 * size; /* rounding has signs too */
@@ -93,7 +94,7 @@ static int becomes_its_image(const fst_node *a, const fst_node *b)
 static int meets_symmetric(const fst_family *family, const fst_node *a, const fst_node *b)
 {
     return family->has_s2 && a->s.segments >= 2 && !a->s.symmetric && a->seen.turns != 0 &&
-           becomes_its_image(a, b);
+           becomes_its_image(a, b, 1);
 }
 
 /* Whether it is an equilibrium that S2 maps onto itself, on the axis: there the symmetry can break.  Elsewhere
@@ -256,8 +257,9 @@ static fst_status look_before_hopf_end(const interval *i, fst_error *error)
                                                            : status;
 }
 
-/* A turn of the parameter between a and b.  The curve of S1 orbits also turns where it meets the symmetric one,
- * and that of librations where they shrink to nothing: there it would only come back on itself. */
+/* A turn of the parameter between a and b.  The curve of S1 orbits also turns where it meets the symmetric one, that of
+ * librations where they shrink to nothing, and that of orbits whose period has doubled where it meets the orbits of half
+ * the period: there it would only come back on itself. */
 static fst_status report_turn(const interval *i, fst_error *error)
 {
     const fst_node *a = i->a, *b = i->b;
@@ -273,6 +275,11 @@ static fst_status report_turn(const interval *i, fst_error *error)
         const fst_status status = look_before_hopf_end(i, error);
         return status == FST_OK ? report_hopf_end(i, &at, frequency, error) : status;
     }
+    if (a->s.segments >= 2 && !a->s.symmetric && becomes_its_image(a, b, 0)) {
+        fst_curve_end_set(i->end, FST_END_OTHER_BRANCH, "it ends where its period has doubled, near %.6g",
+                          b->s.value);
+        return FST_OK;
+    }
     if (!i->sink->special && a->s.segments > 0) /* nobody hears of a fold */
         return FST_OK;
     if (fst_locate_special(i->family, a, b, FST_TEST_FOLD, &at, &why) != FST_OK) {
@@ -280,7 +287,7 @@ static fst_status report_turn(const interval *i, fst_error *error)
             fst_curve_end_set(i->end, FST_END_OTHER_BRANCH, "it ends on another branch near %.6g", b->s.value);
         return FST_OK;
     }
-    if (at.s.segments == 0 && (becomes_its_image(a, b) || is_branch_point(i->family, &at.s))) {
+    if (at.s.segments == 0 && (becomes_its_image(a, b, 1) || is_branch_point(i->family, &at.s))) {
         fst_curve_end_set(i->end, FST_END_HIGHER_SYMMETRY, "it ends on a branch of higher symmetry at %.12g",
                           at.s.value);
         return FST_OK;

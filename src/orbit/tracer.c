@@ -1,6 +1,7 @@
 /* tracer.c - following one branch after another. */
 #include "orbit/tracer.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "base/error.h"
@@ -13,6 +14,9 @@
 static fst_status tell_progress(fst_tracer *t, fst_error *error)
 {
     const double part = (t->done + t->nodes / (t->nodes + 40.0)) / (t->pending_count ? t->pending_count : 1);
+    (void)snprintf(t->what, sizeof t->what, "branch %d of %d, %s = %.5g", t->done + 1, t->pending_count,
+                   t->options->key, t->last_value);
+    t->watch.what = t->what;
     fst_watch_reach(&t->watch, part);
     return fst_watch_ask(&t->watch, error);
 }
@@ -21,8 +25,8 @@ static fst_status take_node(void *user, const fst_node *node, fst_error *error)
 {
     fst_tracer *t = user;
     t->nodes += 1;
-    const fst_status status = tell_progress(t, error);
     t->last_value = node->s.value;
+    const fst_status status = tell_progress(t, error);
     return status == FST_OK ? fst_branch_add_point(t->out, &node->seen, t->branch, error) : status;
 }
 
@@ -127,6 +131,7 @@ fst_status fst_tracer_run(fst_tracer *t, fst_error *error)
         status = follow_branch(t, &t->pending[t->done], error);
     }
     t->pending_count = t->done = t->nodes = 0;
+    t->watch.what = NULL;
     t->out->branches = t->branch_count;
     return status;
 }

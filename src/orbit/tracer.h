@@ -26,6 +26,7 @@ typedef struct fst_tracer {
     fst_watch watch;              /* its present part: the branches that are pending */
     int done;                     /* of the pending ones */
     int nodes;                    /* on the present one */
+    char what[96];                /* for the watch: which of the branches, and where on it */
     fst_node starts[FST_PENDING]; /* special points from which curves over two parameters begin */
     int start_count;
 } fst_tracer;
