@@ -139,7 +139,9 @@ fst_status fst_place_correct(const fst_surface *surface, fst_place *place, const
             status = second_column(surface, place, second, error);
         if (status != FST_OK)
             return status;
-        if (fst_newton_is_done(&family, s, before)) {
+        /* Tests along a special point's curve need all digits: only a held disc leaves fewer. */
+        if (fst_newton_is_done(&family, s, before) &&
+            (s->residual < family.residual || family.params.contact_patch == FST_PATCH_HERTZ)) {
             status = find_plane(surface, place, &l, second, across, error);
             return status == FST_OK ? fst_solution_spectrum(&family, s, error) : status;
         }
