@@ -114,11 +114,17 @@ static void mark_end(round_trip *trip)
     fst_marks_offer(&trip->ends, &mark);
 }
 
-/* Look for the end of a slip, a rest or a flight in the flow's last step.  An onset belongs to the slip it begins. */
+/* Whether a contact slips in that mode: one that begins to slip or creeps does. */
+static int slips(int mode)
+{
+    return mode == FST_MODE_SLIP || mode == FST_MODE_ONSET || mode == FST_MODE_CREEP;
+}
+
+/* Look for the end of a slip, a rest or a flight in the flow's last step. */
 static void note_change(round_trip *trip, fst_description *out)
 {
     const int next = trip->flow->contact.slip.next;
-    if (next < 0 || (fst_contact_mode(trip->flow) == FST_MODE_ONSET && next == FST_MODE_SLIP))
+    if (next < 0 || (slips(fst_contact_mode(trip->flow)) && slips(next)))
         return;
     out->shortest = fmin(out->shortest, trip->flow->t.high - trip->changed);
     trip->changed = trip->flow->t.high;
