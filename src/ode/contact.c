@@ -195,8 +195,7 @@ void fst_contact_begin_next(fst_flow *flow)
     fst_contact_state *contact = &flow->contact;
     if (!fst_contact_changes(flow))
         return;
-    const int mode = fst_contact_mode(flow), slips = mode == FST_MODE_SLIP || mode == FST_MODE_CREEP;
-    contact->captures += slips && contact->slip.next == FST_MODE_STICK;
+    contact->captures += fst_contact_slips(flow) && contact->slip.next == FST_MODE_STICK;
     enter(flow, contact->slip.next, contact->roll.next, flow->step.end);
     fst_bead_flow_restart(flow);
 }

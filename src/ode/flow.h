@@ -154,6 +154,13 @@ static inline int fst_contact_mode(const fst_flow *flow)
     return (int)fst_flow_modes(flow)->contact;
 }
 
+/* Whether a contact slips, fast or creeping. */
+static inline int fst_contact_slips(const fst_flow *flow)
+{
+    const int mode = fst_contact_mode(flow);
+    return mode == FST_MODE_SLIP || mode == FST_MODE_CREEP;
+}
+
 static inline int fst_contact_roll(const fst_flow *flow)
 {
     return (int)fst_flow_modes(flow)->rolling;

@@ -124,8 +124,7 @@ static int is_repelled(const fst_watched_run *run)
     const fst_flow *flow = run->flow;
     if (run->model->world.kinds.dry && !run->settling.has_moved)
         return 1;
-    if (run->model->world.kinds.dry &&
-        !(fst_contact_mode(flow) == FST_MODE_SLIP && fst_contact_roll(flow) == FST_ROLL_ROLLS))
+    if (run->model->world.kinds.dry && !(fst_contact_slips(flow) && fst_contact_roll(flow) == FST_ROLL_ROLLS))
         return 0;
     return fst_rest_rate(run->model, run->flow->step.end) > GROWS + noise_of(run);
 }
