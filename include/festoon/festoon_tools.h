@@ -78,9 +78,10 @@ FST_API char *fst_schema_json(void);
 /* The scene in SI and its scaled groups: `scene`, `groups`. */
 FST_API char *fst_scene_json(const fst_params *params);
 
-/* `orbit`; `others` (NULL: not asked for) are further patterns with the same number of festoons. */
+/* `orbit`; `others` (NULL: not asked for) are further patterns with the same number of festoons.  `units`: as of
+ * fst_run_json_in(); with `state_si`, the state in m, m/s and rad/s. */
 FST_API char *fst_orbit_json(const fst_params *params, const fst_orbit *orbit, const fst_orbit *others,
-                             size_t count);
+                             size_t count, fst_shown_units units);
 FST_API char *fst_levitation_json(const fst_params *params, const fst_levitation_list *list);
 FST_API char *fst_locked_json(const fst_params *params, double omega, const fst_locked_list *list);
 FST_API char *fst_branch_json(const fst_params *params, const fst_branch *branch);
@@ -110,9 +111,10 @@ FST_API char *fst_run_json_in(const fst_params *params, const fst_run_result *re
  * `final_lab`, `final_lab_si`. */
 FST_API char *fst_world_json(const fst_params *params, const fst_world_result *result, fst_shown_units units);
 
-/* A motion that repeats itself with the drive: `period`, `frame`, `multipliers` (pairs), `stable`, `state`, `residual`.
- */
-FST_API char *fst_world_orbit_json(const fst_params *params, const fst_world_orbit *orbit);
+/* A motion that repeats itself with the drive: `period`, `frame`, `multipliers` (pairs), `stable`, `state`, `residual`;
+ * in SI `period_s`, `state_si`. */
+FST_API char *fst_world_orbit_json(const fst_params *params, const fst_world_orbit *orbit,
+                                   fst_shown_units units);
 
 /* The field of everything at a time and a place (fst_field_at()): `time`, `place`, `b`, `grad`, and in SI where B0 is
  * known. */
@@ -477,7 +479,8 @@ FST_API fst_critical_options fst_default_critical_options(void);
 FST_API fst_status fst_critical_find(const fst_params *params, const fst_critical_options *options,
                                      fst_critical *critical, fst_error *error);
 FST_API void fst_critical_free(fst_critical *critical);
-FST_API char *fst_critical_json(const fst_params *params, const fst_critical *critical);
+/* With FST_SHOWN_LAB or FST_SHOWN_SI every speed also in Hz: `value_hz`, ... */
+FST_API char *fst_critical_json(const fst_params *params, const fst_critical *critical, fst_shown_units units);
 
 /* ------------------------------------------------------------------ films */
 

@@ -10,6 +10,7 @@ from ._keys import known_key, row_of
 from ._native import Watch, ffi, lent, lib, options_of, take_text
 from ._pickled import Printed
 from ._progress import Progress
+from ._quantities import units_of
 from ._tabled import NUMBERS, Column, Shown, Table, about, numbers_of, scaled_columns, scales_of
 from .branches import range_of
 
@@ -248,19 +249,19 @@ class FloatingStates(_Found):
         return "\n".join([f"FloatingStates: {len(self)} places", *lines])
 
 
-def _ask(setup: "Bead", progress: Progress, title: str, find: Any, found: Any, to_json: Any) -> Dict[str, Any]:
+def _ask(setup: "Bead", progress: Progress, title: str, find: Any, found: Any, to_json: Any, *more: int) -> Dict[str, Any]:
     options = options_of(lib.fst_default_beads_options())
     with Watch(progress, title=title) as watch:
         options.progress = watch.told
         watch.call(find, setup._params, options, *found)
-    told: Dict[str, Any] = json.loads(take_text(to_json(setup._params, found[-1])))
+    told: Dict[str, Any] = json.loads(take_text(to_json(setup._params, found[-1], *more)))
     return told
 
 
 def orbit(setup: "Bead", progress: Progress) -> BeadsOrbit:
     """See Beads.orbit()."""
     found = ffi.new("fst_beads_orbit *")
-    return BeadsOrbit(setup, _ask(setup, progress, "orbit", lib.fst_beads_orbit_scene, (found,), lib.fst_beads_orbit_json))
+    return BeadsOrbit(setup, _ask(setup, progress, "orbit", lib.fst_beads_orbit_scene, (found,), lib.fst_beads_orbit_json, units_of("scaled")))
 
 
 def locked(setup: "Bead", progress: Progress) -> BeadsLocked:
@@ -272,7 +273,7 @@ def locked(setup: "Bead", progress: Progress) -> BeadsLocked:
 def world_orbit(setup: "Bead", progress: Progress) -> WorldOrbit:
     """See Bead.orbit()."""
     found = ffi.new("fst_world_orbit *")
-    return WorldOrbit(setup, _ask(setup, progress, "orbit", lib.fst_world_orbit_find, (found,), lib.fst_world_orbit_json))
+    return WorldOrbit(setup, _ask(setup, progress, "orbit", lib.fst_world_orbit_find, (found,), lib.fst_world_orbit_json, units_of("scaled")))
 
 
 def floating(setup: "Bead", progress: Progress) -> FloatingStates:

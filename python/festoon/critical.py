@@ -9,6 +9,7 @@ from ._given import word_of
 from ._native import Watch, ffi, lib, take_text
 from ._pickled import Told
 from ._progress import Progress
+from ._quantities import units_of
 from ._tabled import Column, Shown, Table, about, scales_of
 from .bead import Bead
 
@@ -86,4 +87,4 @@ def critical(bead: Bead, over: str, tolerance: float, progress: Progress) -> Cri
     with Watch(progress, title="critical") as watch:
         options.progress = watch.told
         watch.call(lib.fst_critical_find, bead._params, options, found)
-    return Critical(bead, json.loads(take_text(lib.fst_critical_json(bead._params, found))))
+    return Critical(bead, json.loads(take_text(lib.fst_critical_json(bead._params, found, units_of("scaled")))))

@@ -10,6 +10,7 @@ from ._errors import BadInput
 from ._native import Watch, ffi, lent, lib, state_of, take_text, text_of
 from ._pickled import Told, image_of, struct_of
 from ._progress import Progress
+from ._quantities import units_of
 from ._tabled import NUMBERS, OF_PLATE, Column, Shown, Table, about, numbers_of, scaled_columns, scales_of
 from .bead import Bead
 from .runs import SYMMETRIES, Run
@@ -105,7 +106,7 @@ class Orbit(Run):
         """
         others, _ = _orbit_array([other._orbit for other in self.others])
         text: Dict[str, Any] = json.loads(
-            take_text(lib.fst_orbit_json(self.bead._params, self._orbit, others, len(self.others)))
+            take_text(lib.fst_orbit_json(self.bead._params, self._orbit, others, len(self.others), units_of("scaled")))
         )
         return text
 

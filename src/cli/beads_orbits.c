@@ -6,6 +6,7 @@
 
 #include <festoon/bead_files.h>
 
+#include "cli/groups.h"
 #include "cli/terminal.h"
 
 /* Options that only a single bead has. */
@@ -75,23 +76,27 @@ fst_status locked_beads(const arguments *given, const fst_params *scene, FILE *o
     return FST_OK;
 }
 
-static void print_orbit(FILE *out, const fst_beads_orbit *o)
+static void print_orbit(const page *p, const fst_beads_orbit *o)
 {
-    (void)fprintf(out, "omega = %.12g: %s%s\n", o->omega,
+    FILE *out = p->out;
+    (void)fprintf(out, "omega = %.12g (%.9g Hz): %s%s\n", o->omega, o->omega / (TWO_PI * p->scales.time),
                   o->exchanges ? "two beads that change places in half a period, " : "",
                   o->stable ? "stable" : "unstable");
-    (void)fprintf(out, "  period                    %.12g 1/gamma\n", o->period);
-    for (int i = 0; i < o->count; ++i)
-        (void)fprintf(out, "  bead %d: <r>, <alpha'>     %.12g l, %.12g gamma\n", i + 1, o->mean_r[i],
-                      unsigned_zero(o->mean_alpha_dot[i], ALL_DIGITS));
-    (void)fprintf(out, "  power of the drive        %.10g l^2 gamma^3\n", o->drive_power);
+    print_shown(p, "period", &o->period, 1, "period", "1/gamma");
+    for (int i = 0; i < o->count; ++i) {
+        char name[32];
+        (void)snprintf(name, sizeof name, "bead %d: <r>", i + 1);
+        print_shown(p, name, &o->mean_r[i], 1, "mean_r", "l");
+        print_shown(p, "        <alpha'>", &o->mean_alpha_dot[i], 1, "mean_alpha_dot", "gamma");
+    }
+    print_shown(p, "power of the drive", &o->drive_power, 1, "power", "l^2 gamma^3");
     print_pairs(out, o->exchanges ? "multipliers of half a turn, beads exchanged" : "multipliers",
                 o->multiplier_re, o->multiplier_im, o->multipliers);
     (void)fprintf(out, "  residual %.2g, flow direction mapped onto itself to %.2g\n", o->residual,
                   o->trivial_error);
 }
 
-fst_status orbit_of_beads(const arguments *given, const fst_params *scene, FILE *out, fst_error *error)
+fst_status orbit_of_beads(const arguments *given, const fst_params *scene, const page *p, fst_error *error)
 {
     static const char *const of_one[] = {"festoons", NULL};
     fst_beads_orbit orbit;
@@ -108,8 +113,8 @@ fst_status orbit_of_beads(const arguments *given, const fst_params *scene, FILE 
     if (status != FST_OK)
         return status;
     if (option_value(given, "json"))
-        return print_and_free(fst_beads_orbit_json(scene, &orbit), out, error);
-    print_orbit(out, &orbit);
+        return print_and_free(fst_beads_orbit_json(scene, &orbit, p->units), p->out, error);
+    print_orbit(p, &orbit);
     return FST_OK;
 }
 

@@ -6,16 +6,16 @@
 #include "cli/run_beads.h"
 
 /* Where the numbers go, and their units. */
-typedef struct page {
+typedef struct beads_page {
     FILE *out;
     double length, rate, power; /* factors of scaled numbers */
     const char *length_unit, *rate_unit, *power_unit;
-} page;
+} beads_page;
 
-static page begin_page(FILE *out, const fst_params *scene, fst_shown_units units)
+static beads_page begin_page(FILE *out, const fst_params *scene, fst_shown_units units)
 {
     const fst_scales scales = fst_scales_of(scene);
-    page p = {.out = out};
+    beads_page p = {.out = out};
     p.length = fst_unit_shown("l", units, &scales, &p.length_unit);
     p.rate = fst_number_shown("mean_alpha_dot", "gamma", units, &scales, &p.rate_unit);
     p.power = fst_unit_shown("l^2 gamma^3", units, &scales, &p.power_unit);
@@ -23,7 +23,7 @@ static page begin_page(FILE *out, const fst_params *scene, fst_shown_units units
 }
 
 /* A number in a cell of its width, or "-". */
-static void print_cell(const page *p, int width, double value)
+static void print_cell(const beads_page *p, int width, double value)
 {
     if (isfinite(value))
         (void)fprintf(p->out, " %*.5g", width, unsigned_zero(value, ALL_DIGITS));
@@ -31,7 +31,7 @@ static void print_cell(const page *p, int width, double value)
         (void)fprintf(p->out, " %*s", width, "-");
 }
 
-static void print_groups_table(const page *p, const fst_beads_result *result)
+static void print_groups_table(const beads_page *p, const fst_beads_result *result)
 {
     (void)fprintf(p->out, "\n  %-8s %-18s %10s %12s %12s\n", "group", "beads", "<r> ", "centre ", "axis ");
     (void)fprintf(p->out, "  %-8s %-18s %10s %12s %12s\n", "", "", p->length_unit, p->rate_unit, p->rate_unit);
@@ -54,7 +54,7 @@ static void print_groups_table(const page *p, const fst_beads_result *result)
     }
 }
 
-static void print_beads_table(const page *p, const fst_beads_result *result)
+static void print_beads_table(const beads_page *p, const fst_beads_result *result)
 {
     (void)fprintf(p->out, "\n  %-5s %-17s %10s %12s %10s %12s\n", "bead", "regime", "<r> ", "<alpha'> ",
                   "load ", "height ");
@@ -71,14 +71,14 @@ static void print_beads_table(const page *p, const fst_beads_result *result)
     }
 }
 
-static void print_power(const page *p, const char *name, double value)
+static void print_power(const beads_page *p, const char *name, double value)
 {
     if (isfinite(value))
         (void)fprintf(p->out, "  %-32s %.8g %s\n", name, unsigned_zero(value * p->power, ALL_DIGITS),
                       p->power_unit);
 }
 
-static void print_balance(const page *p, const fst_beads_result *result)
+static void print_balance(const beads_page *p, const fst_beads_result *result)
 {
     (void)fprintf(p->out, "\n");
     print_power(p, "power of the drive", result->drive_power);
@@ -98,7 +98,7 @@ static void print_balance(const page *p, const fst_beads_result *result)
 
 void print_beads(FILE *out, const fst_params *scene, const fst_beads_result *result, fst_shown_units units)
 {
-    const page p = begin_page(out, scene, units == FST_SHOWN_AS_GIVEN ? FST_SHOWN_LAB : units);
+    const beads_page p = begin_page(out, scene, units == FST_SHOWN_AS_GIVEN ? FST_SHOWN_LAB : units);
     char sentence[FST_BEADS_SENTENCE_SIZE];
     fst_beads_sentence(result, sentence, sizeof sentence);
     (void)fprintf(out, "%s\n  %s: %s\n", sentence, fst_beads_outcome_name(result->outcome), result->reason);

@@ -122,6 +122,17 @@ fst_status read_unit(const char *name, const char *text, fst_unit unit, double *
 /* Read a time with its unit: "2ms", "0.002 s", "500us", or "1/500s" as cameras write it. */
 fst_status read_time(const char *option_name, const char *text, double *seconds, fst_error *error);
 
+/* Where numbers go, and their units. */
+typedef struct page {
+    FILE *out;
+    fst_shown_units units;
+    fst_scales scales;
+} page;
+
+/* A line with scaled numbers of the unit `unit`, which tables call `key`, in the page's units. */
+void print_shown(const page *p, const char *name, const double *values, int count, const char *key,
+                 const char *unit);
+
 /* Read exactly `count` numbers separated by commas. */
 fst_status read_numbers(const char *option_name, const char *text, double *numbers, int count,
                         fst_error *error);

@@ -58,6 +58,17 @@ double unsigned_zero(double value, int decimals)
     return fabs(value) <= 0.5 * pow(10.0, -decimals) ? 0.0 : value;
 }
 
+void print_shown(const page *p, const char *name, const double *values, int count, const char *key,
+                 const char *unit)
+{
+    const char *shown_unit;
+    const double factor = fst_number_shown(key, unit, p->units, &p->scales, &shown_unit);
+    (void)fprintf(p->out, "  %-24s", name);
+    for (int i = 0; i < count; ++i)
+        (void)fprintf(p->out, "%s %.12g", i ? "," : " ", unsigned_zero(factor * values[i], ALL_DIGITS));
+    (void)fprintf(p->out, "%s%s\n", *shown_unit ? " " : "", shown_unit);
+}
+
 fst_status read_numbers(const char *option_name, const char *text, double *numbers, int count, fst_error *error)
 {
     const char *at = text;

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cli/command.h"
+#include "cli/groups.h"
 #include "cli/terminal.h"
 
 static const option options[] = {
@@ -10,6 +11,7 @@ static const option options[] = {
     {"over", '\0', "KEY=LO:HI:COUNT", "the speeds of the first runs (drive.frequency=2Hz:30Hz:113)"},
     {"tolerance", EXPERT, "T", "the width to which a border is enclosed, over the speed (1e-4)"},
     JSON_OPTION,
+    UNITS_OPTION,
     {NULL, '\0', NULL, NULL},
 };
 
@@ -39,14 +41,37 @@ static void print_sides(FILE *out, const fst_critical *c, const char *unit)
         (void)fprintf(out, " %s\n", fst_regime_name(c->above));
 }
 
-static void print_critical(FILE *out, const fst_critical *c)
+/* The unit in which speeds are shown; all of `c` are turned into it.  A frequency is one of SI already. */
+static const char *show_in(const page *p, fst_critical *c)
 {
     const int is_frequency = strcmp(c->key, "drive.frequency") == 0;
-    const char *unit = is_frequency ? " Hz" : " gamma";
+    const char *unit = "Hz";
+    double factor = 1.0;
+    if (is_frequency && p->units == FST_SHOWN_SCALED) {
+        factor = TWO_PI * p->scales.time;
+        unit = "gamma";
+    } else if (!is_frequency) {
+        factor = fst_number_shown("omega", "gamma", p->units, &p->scales, &unit);
+    }
+    double *const speeds[] = {&c->value, &c->error, &c->until, &c->parting, &c->parting_error};
+    for (size_t i = 0; i < sizeof speeds / sizeof *speeds; ++i)
+        *speeds[i] *= factor;
+    for (size_t i = 0; i < c->stretch_count; ++i) {
+        c->stretches[i].from *= factor;
+        c->stretches[i].to *= factor;
+    }
+    return unit;
+}
+
+static void print_critical(const page *p, fst_critical *c)
+{
+    FILE *out = p->out;
+    char unit[16];
+    (void)snprintf(unit, sizeof unit, " %s", show_in(p, c));
     if (c->found) {
         (void)fputs("critical speed: ", out);
         print_with_error(out, c->value, c->error, unit);
-        if (is_frequency)
+        if (strcmp(unit, " Hz") == 0)
             (void)fprintf(out, ", %.2f turns a minute", 60 * c->value);
         print_sides(out, c, unit);
         if (c->special >= 0)
@@ -75,12 +100,16 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     const fst_progress progress = {&line, progress_tell};
     fst_critical_options o = fst_default_critical_options();
     const char *over = option_value(given, "over"), *tolerance = option_value(given, "tolerance");
-    fst_status status = read_scene(given, operand(given), &params, error);
+    page p = {.out = out};
+    fst_status status = read_units(given, &p.units, error);
+    if (status == FST_OK)
+        status = read_scene(given, operand(given), &params, error);
     if (status == FST_OK && tolerance)
         status = read_numbers("--tolerance", tolerance, &o.tolerance, 1, error);
     if (status != FST_OK)
         return status;
     warn_of_material(&params);
+    p.scales = fst_scales_of(&params);
     if (over)
         o.over = over;
     o.progress = &progress;
@@ -91,10 +120,10 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (told && status != FST_OK)
         output_keep();
     if (told && option_value(given, "json")) {
-        const fst_status printed = print_and_free(fst_critical_json(&params, &found), out, error);
+        const fst_status printed = print_and_free(fst_critical_json(&params, &found, p.units), out, error);
         status = status == FST_OK ? printed : status;
     } else if (told) {
-        print_critical(out, &found);
+        print_critical(&p, &found);
     }
     fst_critical_free(&found);
     return status;
@@ -102,7 +131,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command critical_command = {
     .name = "critical",
-    .synopsis = "[SCENE.yaml] [--over KEY=LO:HI:COUNT] [--json]",
+    .synopsis = "[SCENE.yaml] [--over KEY=LO:HI:COUNT] [--json] [--units U]",
     .summary = "From which speed on the bead circles against the magnet",
     .details = "Runs over the range, each from the scene's start, show where the outcome changes; more runs "
                "enclose the lowest\n"

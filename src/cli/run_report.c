@@ -83,13 +83,6 @@ static void print_sentence(FILE *out, const fst_groups *groups, const fst_run_re
 
 /* ---------------------------------------------------------------- the numbers */
 
-/* Where the numbers go, and the units of the second column: those of a laboratory or SI. */
-typedef struct page {
-    FILE *out;
-    fst_shown_units units;
-    fst_scales scales;
-} page;
-
 /* Print a line with a scaled number, its error bar (NAN: none), and the number in another unit (NULL: there is
  * none): value * factor. */
 static void print_both(const page *p, const char *name, double value, double bar, const char *scaled_unit,

@@ -20,13 +20,6 @@ static fst_status check_options(const arguments *given, const char *key, fst_err
     return FST_OK;
 }
 
-/* Where the numbers go, and their units. */
-typedef struct page {
-    FILE *out;
-    fst_shown_units units;
-    fst_scales scales;
-} page;
-
 /* Three numbers in SI, which are called `key` in tables; `unit` is their scaled one. */
 static void print_vector(const page *p, const char *name, const double v[3], const char *key, const char *unit)
 {

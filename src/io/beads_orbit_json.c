@@ -66,29 +66,41 @@ static double mean(const double *values, int count)
     return sum / count;
 }
 
-char *fst_beads_orbit_json(const fst_params *scene, const fst_beads_orbit *orbit)
+/* A number; and in SI where its scales are given. */
+static void put_number(fst_json *json, const char *key, double value, const char *unit, const fst_scales *si)
 {
+    fst_json_real(json, key, value);
+    if (si)
+        fst_json_in_si(json, key, value, unit, si);
+}
+
+char *fst_beads_orbit_json(const fst_params *scene, const fst_beads_orbit *orbit, fst_shown_units units)
+{
+    const fst_scales scales = fst_scales_of(scene);
+    const fst_scales *si = fst_json_with_si(units) ? &scales : NULL;
     fst_json json = fst_json_begin('{');
     fst_json_real(&json, "omega", orbit->omega);
-    fst_json_real(&json, "period", orbit->period);
-    fst_json_real(&json, "mean_r", mean(orbit->mean_r, orbit->count));
-    fst_json_real(&json, "mean_alpha_dot", mean(orbit->mean_alpha_dot, orbit->count));
+    put_number(&json, "period", orbit->period, "1/gamma", si);
+    put_number(&json, "mean_r", mean(orbit->mean_r, orbit->count), "l", si);
+    put_number(&json, "mean_alpha_dot", mean(orbit->mean_alpha_dot, orbit->count), "gamma", si);
     fst_json_pairs(&json, "multipliers", orbit->multiplier_re, orbit->multiplier_im, orbit->multipliers);
     fst_json_flag(&json, "stable", orbit->stable);
     fst_json_text(&json, "symmetry", orbit->exchanges ? "exchange" : fst_symmetry_name(orbit->symmetry));
     fst_json_open(&json, "beads", '[');
     for (int i = 0; i < orbit->count; ++i) {
         fst_json_open(&json, NULL, '{');
-        fst_json_real(&json, "mean_r", orbit->mean_r[i]);
-        fst_json_real(&json, "mean_alpha_dot", orbit->mean_alpha_dot[i]);
+        put_number(&json, "mean_r", orbit->mean_r[i], "l", si);
+        put_number(&json, "mean_alpha_dot", orbit->mean_alpha_dot[i], "gamma", si);
         fst_json_reals(&json, "state", orbit->state[i], FST_BEAD_NUMBERS);
+        if (si)
+            fst_json_state_si(&json, "state_si", orbit->state[i], 3, si);
         fst_json_close(&json);
     }
     fst_json_close(&json);
     fst_json_open(&json, "powers", '{');
-    fst_json_real(&json, "drive", orbit->drive_power);
-    fst_json_real(&json, "plate", orbit->plate_power);
-    fst_json_real(&json, "pair", orbit->pair_power);
+    put_number(&json, "drive", orbit->drive_power, "l^2 gamma^3", si);
+    put_number(&json, "plate", orbit->plate_power, "l^2 gamma^3", si);
+    put_number(&json, "pair", orbit->pair_power, "l^2 gamma^3", si);
     fst_json_close(&json);
     fst_json_real(&json, "residual", orbit->residual);
     fst_json_real(&json, "trivial_multiplier_error", orbit->trivial_error);

@@ -170,7 +170,7 @@ static void put_result(page *p, const fst_params *scene, const fst_beads_result 
 
 char *fst_beads_json(const fst_params *scene, const fst_beads_result *result, fst_shown_units units)
 {
-    page p = {fst_json_begin('{'), units == FST_SHOWN_LAB || units == FST_SHOWN_SI, 1, fst_scales_of(scene)};
+    page p = {fst_json_begin('{'), fst_json_with_si(units), 1, fst_scales_of(scene)};
     put_result(&p, scene, result);
     fst_json_scene(&p.json, scene);
     fst_json_text(&p.json, "version", fst_version());

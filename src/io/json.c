@@ -220,8 +220,22 @@ void fst_json_in_si(fst_json *json, const char *name, double value, const char *
     }
 }
 
-/* The numbers of a run in SI; a load in weights, mean_load_weights, becomes mean_load_newtons. */
-static void put_si(fst_json *json, const fst_params *params, const fst_run_result *result)
+int fst_json_with_si(fst_shown_units units)
+{
+    return units == FST_SHOWN_LAB || units == FST_SHOWN_SI;
+}
+
+void fst_json_state_si(fst_json *json, const char *key, const double *state, int axes, const fst_scales *scales)
+{
+    double si[FST_BEAD_NUMBERS];
+    const int count = 2 * axes + 6;
+    for (int i = 0; i < count; ++i)
+        si[i] = state[i] * (i < 2 * axes ? scales->length : 1.0) /
+                (i < axes || (i >= 2 * axes && i < count - 3) ? 1.0 : scales->time);
+    fst_json_reals(json, key, si, count);
+}
+
+void fst_json_run_si(fst_json *json, const fst_params *params, const fst_run_result *result)
 {
     const fst_scales scales = fst_scales_of(params);
     for (int i = 0; i < fst_result_count(); ++i) {
@@ -273,10 +287,10 @@ char *fst_world_json(const fst_params *params, const fst_world_result *result, f
 {
     fst_json json = fst_json_begin('{');
     put_run(&json, params, &result->run);
-    if (units == FST_SHOWN_LAB || units == FST_SHOWN_SI)
-        put_si(&json, params, &result->run);
+    if (fst_json_with_si(units))
+        fst_json_run_si(&json, params, &result->run);
     put_world(&json, result);
-    if (units == FST_SHOWN_LAB || units == FST_SHOWN_SI)
+    if (fst_json_with_si(units))
         put_world_si(&json, params, result);
     put_groups(&json, params);
     fst_json_scene(&json, params);
@@ -295,8 +309,8 @@ char *fst_run_json_in(const fst_params *params, const fst_run_result *result, co
 {
     fst_json json = fst_json_begin('{');
     fst_json_run(&json, params, result);
-    if (units == FST_SHOWN_LAB || units == FST_SHOWN_SI)
-        put_si(&json, params, result);
+    if (fst_json_with_si(units))
+        fst_json_run_si(&json, params, result);
     put_groups(&json, params);
     fst_json_scene(&json, params);
     if (ramp_count)
@@ -415,7 +429,7 @@ char *fst_field_json(const fst_model *model, double x, double y, fst_shown_units
 {
     double b[3], grad[3][3], force[3], load;
     const fst_groups g = fst_model_groups(model);
-    const int in_si = units == FST_SHOWN_SI || units == FST_SHOWN_LAB;
+    const int in_si = fst_json_with_si(units);
     fst_field(model, x, y, b, grad);
     fst_field_pull(model, x, y, force, &load);
     fst_json json = fst_json_begin('{');
@@ -448,10 +462,15 @@ char *fst_field_at_json(const fst_params *params, double time, const double plac
     return fst_json_end(&json, JSON_INDENT(2));
 }
 
-char *fst_world_orbit_json(const fst_params *params, const fst_world_orbit *orbit)
+char *fst_world_orbit_json(const fst_params *params, const fst_world_orbit *orbit, fst_shown_units units)
 {
+    const fst_scales scales = fst_scales_of(params);
     fst_json json = fst_json_begin('{');
     fst_json_real(&json, "period", orbit->period);
+    if (fst_json_with_si(units)) {
+        fst_json_in_si(&json, "period", orbit->period, "1/gamma", &scales);
+        fst_json_state_si(&json, "state_si", orbit->state, 3, &scales);
+    }
     fst_json_name(&json, "frame", FST_WORDS(FST_FRAMES), orbit->frame);
     fst_json_open(&json, "multipliers", '[');
     for (int i = 0; i < orbit->count; ++i)

@@ -19,6 +19,16 @@ void fst_json_scene(fst_json *json, const fst_params *params);
  * counterpart: nothing. */
 void fst_json_in_si(fst_json *json, const char *name, double value, const char *unit, const fst_scales *scales);
 
+/* Whether numbers in SI stand beside the scaled ones. */
+int fst_json_with_si(fst_shown_units units);
+
+/* A state of two or three axes in m, m/s and rad/s. */
+void fst_json_state_si(fst_json *json, const char *key, const double *state, int axes,
+                       const fst_scales *scales);
+
+/* The numbers of a run in SI; a load in weights, mean_load_weights, becomes mean_load_newtons. */
+void fst_json_run_si(fst_json *json, const fst_params *params, const fst_run_result *result);
+
 /* The members of a run's result. */
 void fst_json_run(fst_json *json, const fst_params *params, const fst_run_result *result);
 

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "base/grow.h"
 #include "base/text.h"
@@ -17,16 +18,42 @@ enum { INDENT = 2 };
 
 #define SPACES " \t\r\n"
 
-static void put_orbit(fst_json *json, const fst_params *params, const fst_orbit *orbit)
+/* What of an orbit is no mean of a run in SI too. */
+static void put_orbit_si(fst_json *json, const fst_params *params, const fst_orbit *orbit)
+{
+    const fst_scales scales = fst_scales_of(params);
+    fst_json_run_si(json, params, &orbit->means);
+    fst_json_in_si(json, "relaxation_time", orbit->relaxation_time, "1/gamma", &scales);
+    fst_json_state_si(json, "state_si", orbit->state, 2, &scales);
+}
+
+static void put_orbit(fst_json *json, const fst_params *params, const fst_orbit *orbit, fst_shown_units units)
 {
     /* What describes a run and its length: an orbit has neither. */
-    static const char *const of_runs[] = {"reason",        "returns",          "rhs_calls",
-                                          "accepted",      "rejected",         "final_state",
-                                          "periods",       "window_periods",   "end_time",
-                                          "norm_drift",    "mean_r_error",     "mean_alpha_dot_error",
-                                          "mean_nz_error", "largest_exponent", "largest_exponent_error",
-                                          "ramp"};
+    static const char *const of_runs[] = {"reason",
+                                          "returns",
+                                          "rhs_calls",
+                                          "accepted",
+                                          "rejected",
+                                          "final_state",
+                                          "periods",
+                                          "window_periods",
+                                          "end_time",
+                                          "norm_drift",
+                                          "mean_r_error",
+                                          "mean_alpha_dot_error",
+                                          "mean_nz_error",
+                                          "largest_exponent",
+                                          "largest_exponent_error",
+                                          "ramp",
+                                          "end_time_s",
+                                          "mean_r_error_m",
+                                          "mean_alpha_dot_error_per_s",
+                                          "largest_exponent_per_s",
+                                          "largest_exponent_error_per_s"};
     fst_json_run(json, params, &orbit->means);
+    if (fst_json_with_si(units))
+        put_orbit_si(json, params, orbit);
     for (size_t i = 0; i < sizeof of_runs / sizeof *of_runs; ++i)
         (void)json_object_del(json->open[json->depth - 1], of_runs[i]);
     fst_json_text(json, "symmetry", fst_symmetry_name(orbit->symmetry));
@@ -41,15 +68,16 @@ static void put_orbit(fst_json *json, const fst_params *params, const fst_orbit 
     fst_json_reals(json, "state", orbit->state, FST_STATE_SIZE);
 }
 
-char *fst_orbit_json(const fst_params *params, const fst_orbit *orbit, const fst_orbit *others, size_t count)
+char *fst_orbit_json(const fst_params *params, const fst_orbit *orbit, const fst_orbit *others, size_t count,
+                     fst_shown_units units)
 {
     fst_json json = fst_json_begin('{');
-    put_orbit(&json, params, orbit);
+    put_orbit(&json, params, orbit, units);
     if (others) {
         fst_json_open(&json, "others", '[');
         for (size_t i = 0; i < count; ++i) {
             fst_json_open(&json, NULL, '{');
-            put_orbit(&json, params, &others[i]);
+            put_orbit(&json, params, &others[i], units);
             fst_json_close(&json);
         }
         fst_json_close(&json);
@@ -296,26 +324,39 @@ char *fst_lyapunov_json(const fst_params *params, const fst_lyapunov *l)
     return fst_json_end(&json, JSON_INDENT(INDENT));
 }
 
-char *fst_critical_json(const fst_params *params, const fst_critical *c)
+/* A speed; and in Hz where `hertz` is not 0. */
+static void put_speed(fst_json *json, const char *key, double value, double hertz)
 {
+    char in_hertz[32];
+    fst_json_real(json, key, value);
+    (void)snprintf(in_hertz, sizeof in_hertz, "%s_hz", key);
+    if (hertz > 0)
+        fst_json_real(json, in_hertz, value * hertz);
+}
+
+char *fst_critical_json(const fst_params *params, const fst_critical *c, fst_shown_units units)
+{
+    const double hertz = !fst_json_with_si(units)                 ? 0.0
+                         : strcmp(c->key, "drive.frequency") == 0 ? 1.0
+                                                                  : params->friction_gamma / FST_TWO_PI;
     fst_json json = fst_json_begin('{');
     fst_json_text(&json, "key", c->key);
     fst_json_flag(&json, "found", c->found);
     fst_json_text(&json, "reason", c->found ? NULL : c->reason);
-    fst_json_real(&json, "value", c->value);
-    fst_json_real(&json, "error", c->error);
+    put_speed(&json, "value", c->value, hertz);
+    put_speed(&json, "error", c->error, hertz);
     fst_json_text(&json, "special", c->special >= 0 ? fst_special_name((fst_special_type)c->special) : NULL);
     fst_json_text(&json, "below", c->found ? fst_regime_name(c->below) : NULL);
     fst_json_text(&json, "above", c->found ? fst_regime_name(c->above) : NULL);
-    fst_json_real(&json, "until", c->until);
-    fst_json_real(&json, "parting", c->parting);
-    fst_json_real(&json, "parting_error", c->parting_error);
+    put_speed(&json, "until", c->until, hertz);
+    put_speed(&json, "parting", c->parting, hertz);
+    put_speed(&json, "parting_error", c->parting_error, hertz);
     fst_json_integer(&json, "runs", c->runs);
     fst_json_open(&json, "stretches", '[');
     for (size_t i = 0; i < c->stretch_count; ++i) {
         fst_json_open(&json, NULL, '{');
-        fst_json_real(&json, "from", c->stretches[i].from);
-        fst_json_real(&json, "to", c->stretches[i].to);
+        put_speed(&json, "from", c->stretches[i].from, hertz);
+        put_speed(&json, "to", c->stretches[i].to, hertz);
         fst_json_text(&json, "regime", fst_regime_name(c->stretches[i].regime));
         fst_json_integer(&json, "runs", c->stretches[i].runs);
         fst_json_close(&json);

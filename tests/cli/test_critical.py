@@ -4,6 +4,8 @@ tests: sweep/critical.c cli/critical.c
 labels: slow numbers"""
 
 import json
+import math
+import re
 import tempfile
 import unittest
 
@@ -45,6 +47,26 @@ class Critical(unittest.TestCase):
         scaled = critical("--set", "drive.omega=0.3", "--over", "drive.omega=0.17:0.2:4", "--tolerance", "0.05")
         gamma = scaled["scene"]["friction.gamma"]
         self.assertLess(abs(scaled["value"] * gamma / (2 * 3.141592653589793) - crossing), 1e-8)
+
+    def test_units(self):
+        gamma, few = 312.5, ["--tolerance", "0.05", "--set", "run.periods=120", "--set", "run.discard=60"]
+        speeds = [*few, "--set", "drive.omega=0.3", "--over", "drive.omega=0.17:0.2:4"]
+        frequencies = [*few, "--over", "drive.frequency=8.4551064Hz:9.9471839Hz:4"]
+        for words, units, unit, hertz in ((speeds, "lab", "Hz", 1), (speeds, "si", "rad/s", 1 / (2 * math.pi)),
+                                          (speeds, "given", "gamma", gamma / (2 * math.pi)),
+                                          (frequencies, "si", "Hz", 1), (frequencies, "scaled", "gamma", gamma / (2 * math.pi))):
+            out = festoon("critical", *words, "--units", units)[1]
+            found = re.search(r"critical speed: (\S+) \+- \S+ (Hz|gamma|rad/s)(.*)\n(?:.*\n)+?  (\S+) +to +\S+ +\2 ", out)
+            self.assertEqual((found[2], "turns a minute" in found[3]), (unit, unit == "Hz"), out)
+            self.assertAlmostEqual(float(found[1]) * hertz, 8.8973163, 6)
+            self.assertAlmostEqual(float(found[4]) * hertz, 8.4551064, 5)
+        told = critical(*speeds, "--units", "lab")
+        for row, keys in ((told, ("value", "error", "until", "parting", "parting_error")), (told["stretches"][0], ("from", "to"))):
+            for key in keys:
+                self.assertAlmostEqual(row[key + "_hz"], row[key] * gamma / (2 * math.pi), 12)
+        told = critical(*frequencies, "--units", "si")
+        self.assertEqual((told["value_hz"], told["stretches"][1]["to_hz"]), (told["value"], told["stretches"][1]["to"]))
+        self.assertNotIn("value_hz", critical(*speeds))
 
     def test_up_to_where(self):
         """Over two blocks and a cylinder the bead circles against the magnet from 8.6 Hz to 12 Hz only."""

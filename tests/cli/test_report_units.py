@@ -1,6 +1,6 @@
 """The numbers that `festoon run` prints for people are those of --json, in the units beside them.
 
-tests: cli/run_report.c cli/run_world.c cli/beads_report.c cli/groups.c io/shown.c io/beads_file.c sweep/export_keys.c
+tests: cli/orbit.c cli/beads_orbits.c io/orbit_json.c io/beads_orbit_json.c cli/run_report.c cli/run_world.c cli/beads_report.c cli/groups.c io/shown.c io/beads_file.c sweep/export_keys.c
 labels: numbers"""
 
 import json
@@ -150,6 +150,36 @@ def test_worlds_and_several_beads_in_all_units():
             for one, other in ((0, 1), (0, 2), (1, 2)):
                 assert texts[one] != texts[other], (scene, "the report has the same units")
             same_in_si(reports, units)
+
+
+def stands_in(few, many):
+    """Whether a document has all that another one has, with the same values."""
+    if isinstance(few, dict):
+        return all(stands_in(value, many[key]) for key, value in few.items())
+    return all(map(stands_in, few, many)) if isinstance(few, list) else few == many
+
+
+def test_orbits_in_all_units():
+    """Every number of a report is the same in SI, and those that --json has in SI are those of the scaled keys."""
+    ask = lambda *words: subprocess.run([FESTOON, *words], capture_output=True, text=True, check=True).stdout
+    swung = ("--set", "drive.waveform=oscillating", "--set", "drive.amplitude=20 deg", "--set", "drive.frequency=30",
+             "--set", "start.spin=rest", "--set", "start.phi=5")
+    for words in (("orbit",), ("orbit", SOURCE / "examples/beads/opposite.yaml"), ("orbit", *swung)):
+        told = {units: json.loads(ask(*words, "--json", "--units", units)) for units in ("given", "si")}
+        scene = scaled_units(told["si"]["scene"])
+        assert stands_in(told["given"], told["si"]), "a key lost its meaning"
+        report = r"^ +(?:bead 1: )?([a-z<][a-z<>,_' ]*?)  +([-\d.e+]+)(?:, [-\d.e+]+)*(?: (\S.*))?$"
+        texts = [ask(*words, "--units", units) for units in ("lab", "si", "given")]
+        found = [[(float(value), unit) for _, value, unit in re.findall(report, text, re.M) if unit != "degrees"] for text in texts]
+        same_in_si(found, (LAB, SI, scene))
+        assert len(set(texts)) == 3
+        close(told["si"]["period_s"], told["si"]["period"] * scene["1/gamma"])
+        beads = told["si"].get("beads", [told["si"]])
+        for bead in beads:
+            axes = (len(bead["state"]) - 6) // 2
+            factors = [scene["l"]] * axes + [scene["l gamma"]] * axes + [1] * 3 + [scene["gamma"]] * 3
+            for value, scaled, factor in zip(bead["state_si"], bead["state"], factors, strict=True):
+                assert math.isclose(value, scaled * factor, rel_tol=1e-12), (words, value, scaled)
 
 
 def exported(base, keys, units):

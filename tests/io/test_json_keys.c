@@ -130,7 +130,7 @@ static void orbits(void **state)
     orbit.residual = next_number(&count);
     orbit.trivial_error = next_number(&count);
     orbit.turns = -1;
-    json_t *object = parsed(fst_orbit_json(&params, &orbit, NULL, 0));
+    json_t *object = parsed(fst_orbit_json(&params, &orbit, NULL, 0, FST_SHOWN_SCALED));
     const json_t *pairs = json_object_get(object, "multipliers");
     assert_int_equal(json_array_size(pairs), FST_MULTIPLIER_COUNT);
     for (size_t i = 0; i < FST_MULTIPLIER_COUNT; ++i) {
