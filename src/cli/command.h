@@ -60,10 +60,16 @@ const command *find_command(const char *name);
             "the length of one unit of the file (of a pixel, mostly), as 0.123mm or 0.123+-0.001mm"            \
     }
 
+#define UNITS_DOC "as given, lab (Hz, mm, s, mT, mN, mW), scaled (l, 1/gamma, B0) or si"
 #define UNITS_OPTION                                                                                           \
     {                                                                                                          \
+        "units", '\0', FST_WORDS(FST_SHOWN), UNITS_DOC                                                         \
+    }
+/* The same where there is --json. */
+#define UNITS_JSON_OPTION                                                                                      \
+    {                                                                                                          \
         "units", '\0', FST_WORDS(FST_SHOWN),                                                                   \
-            "as given, lab (Hz, mm, s, mT, mN, mW), scaled (l, 1/gamma, B0) or si"                             \
+            UNITS_DOC "; to --json lab and si both add the numbers in SI, beside the scaled ones"              \
     }
 
 /* Of the commands that draw figures. */

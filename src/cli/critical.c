@@ -11,7 +11,7 @@ static const option options[] = {
     {"over", '\0', "KEY=LO:HI:COUNT", "the speeds of the first runs (drive.frequency=2Hz:30Hz:113)"},
     {"tolerance", EXPERT, "T", "the width to which a border is enclosed, over the speed (1e-4)"},
     JSON_OPTION,
-    UNITS_OPTION,
+    UNITS_JSON_OPTION,
     {NULL, '\0', NULL, NULL},
 };
 

@@ -27,7 +27,7 @@ static const option options[] = {
      "beside FILE.csv of --smooth also write FILE-1.csv to FILE-N.csv, fields drawn from all that the noise "
      "allows"},
     {"probe", '\0', NULL, "--smooth also fits how the probe's axes are turned, and their offsets"},
-    UNITS_OPTION,
+    UNITS_JSON_OPTION,
     LOOK_OPTIONS,
     {NULL, '\0', NULL, NULL},
 };

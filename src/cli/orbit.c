@@ -7,7 +7,7 @@
 static const option options[] = {
     SCENE_OPTIONS,
     JSON_OPTION,
-    UNITS_OPTION,
+    UNITS_JSON_OPTION,
     {"festoons", '\0', "N",
      "find the drive at which a stable pattern closes in the laboratory after N festoons"},
     {NULL, '\0', NULL, NULL},

@@ -15,7 +15,7 @@ static const option options[] = {
     JSON_OPTION,
     {"output", 'o', "FILE", "write the trajectory to FILE.h5 (HDF5) or FILE.csv"},
     {"csv", '\0', "FILE", "write the trajectory to FILE.csv too"},
-    UNITS_OPTION,
+    UNITS_JSON_OPTION,
     {"sample-rate", '\0', "F",
      "samples of the trajectory a second, as a camera takes them, instead of run.samples a turn"},
     {"ramp", '\0', "FROM:TO",

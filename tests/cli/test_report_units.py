@@ -159,6 +159,17 @@ def stands_in(few, many):
     return all(map(stands_in, few, many)) if isinstance(few, list) else few == many
 
 
+def test_json_in_the_units_of_a_laboratory():
+    """It has the numbers in SI beside the scaled ones, as --help says: no key changes its meaning with --units."""
+    for scene in ([], [SOURCE / "examples/beads/bar.yaml"], [SOURCE / "examples/worlds/bowl.yaml"]):
+        given, lab, si = (json.loads(run(*scene, "--set", "run.periods=2", "--set", "run.discard=1", "--json", "--units", units))
+                          for units in ("given", "lab", "si"))
+        assert lab == si and stands_in(given, lab) and lab != given, scene
+    for command in ("run", "orbit", "critical", "field"):
+        told = " ".join(subprocess.run([FESTOON, command, "--help"], capture_output=True, text=True, check=True).stdout.split())
+        assert "to --json lab and si both add the numbers in SI, beside the scaled ones" in told, command
+
+
 def test_orbits_in_all_units():
     """Every number of a report is the same in SI, and those that --json has in SI are those of the scaled keys."""
     ask = lambda *words: subprocess.run([FESTOON, *words], capture_output=True, text=True, check=True).stdout
