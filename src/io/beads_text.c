@@ -39,6 +39,8 @@ static void put_beads(page *p, const fst_beads_result *result)
         fst_json_real(&p->json, "mean_load_weights", bead->mean_load_weights);
         put(p, "ejected_at", bead->ejected_at, "1/gamma");
         fst_json_reals(&p->json, "final_state", bead->final_state, FST_BEAD_NUMBERS);
+        if (p->in_si)
+            fst_json_state_si(&p->json, "final_state_si", bead->final_state, 3, &p->scales);
         fst_json_close(&p->json);
     }
     fst_json_close(&p->json);

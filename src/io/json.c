@@ -268,6 +268,7 @@ static void put_world(fst_json *json, const fst_world_result *result)
 static void put_world_si(fst_json *json, const fst_params *params, const fst_world_result *result)
 {
     const fst_scales scales = fst_scales_of(params);
+    fst_json_state_si(json, "final_state_si", result->final_state, 3, &scales);
     fst_json_in_si(json, "final_time", result->final_time, "1/gamma", &scales);
     fst_json_in_si(json, "mean_height", result->mean_height, "l", &scales);
     fst_json_in_si(json, "mean_medium_power", result->mean_medium_power, "l^2 gamma^3", &scales);
@@ -308,9 +309,12 @@ char *fst_run_json_in(const fst_params *params, const fst_run_result *result, co
                       size_t ramp_count, fst_shown_units units)
 {
     fst_json json = fst_json_begin('{');
+    const fst_scales scales = fst_scales_of(params);
     fst_json_run(&json, params, result);
-    if (fst_json_with_si(units))
+    if (fst_json_with_si(units)) {
         fst_json_run_si(&json, params, result);
+        fst_json_state_si(&json, "final_state_si", result->final_state, 2, &scales);
+    }
     put_groups(&json, params);
     fst_json_scene(&json, params);
     if (ramp_count)

@@ -159,12 +159,23 @@ def stands_in(few, many):
     return all(map(stands_in, few, many)) if isinstance(few, list) else few == many
 
 
+def states_in_si(document, key):
+    """The states of a document, or of its beads, are those beside them in m, m/s and rad/s."""
+    scene = scaled_units(document["scene"])
+    for bead in document.get("beads", [document]):
+        axes = (len(bead[key]) - 6) // 2
+        factors = [scene["l"]] * axes + [scene["l gamma"]] * axes + [1] * 3 + [scene["gamma"]] * 3
+        for value, scaled, factor in zip(bead[key + "_si"], bead[key], factors, strict=True):
+            assert math.isclose(value, scaled * factor, rel_tol=1e-12), (key, value, scaled)
+
+
 def test_json_in_the_units_of_a_laboratory():
     """It has the numbers in SI beside the scaled ones, as --help says: no key changes its meaning with --units."""
     for scene in ([], [SOURCE / "examples/beads/bar.yaml"], [SOURCE / "examples/worlds/bowl.yaml"]):
         given, lab, si = (json.loads(run(*scene, "--set", "run.periods=2", "--set", "run.discard=1", "--json", "--units", units))
                           for units in ("given", "lab", "si"))
         assert lab == si and stands_in(given, lab) and lab != given, scene
+        states_in_si(si, "final_state")
     for command in ("run", "orbit", "critical", "field"):
         told = " ".join(subprocess.run([FESTOON, command, "--help"], capture_output=True, text=True, check=True).stdout.split())
         assert "to --json lab and si both add the numbers in SI, beside the scaled ones" in told, command
@@ -185,12 +196,7 @@ def test_orbits_in_all_units():
         same_in_si(found, (LAB, SI, scene))
         assert len(set(texts)) == 3
         close(told["si"]["period_s"], told["si"]["period"] * scene["1/gamma"])
-        beads = told["si"].get("beads", [told["si"]])
-        for bead in beads:
-            axes = (len(bead["state"]) - 6) // 2
-            factors = [scene["l"]] * axes + [scene["l gamma"]] * axes + [1] * 3 + [scene["gamma"]] * 3
-            for value, scaled, factor in zip(bead["state_si"], bead["state"], factors, strict=True):
-                assert math.isclose(value, scaled * factor, rel_tol=1e-12), (words, value, scaled)
+        states_in_si(told["si"], "state")
 
 
 def exported(base, keys, units):
