@@ -8,8 +8,8 @@
 /* Where the numbers go, and their units. */
 typedef struct beads_page {
     FILE *out;
-    double length, rate, power; /* factors of scaled numbers */
-    const char *length_unit, *rate_unit, *power_unit;
+    double length, rate, power, energy; /* factors of scaled numbers */
+    const char *length_unit, *rate_unit, *power_unit, *energy_unit;
 } beads_page;
 
 static beads_page begin_page(FILE *out, const fst_params *scene, fst_shown_units units)
@@ -19,6 +19,7 @@ static beads_page begin_page(FILE *out, const fst_params *scene, fst_shown_units
     p.length = fst_unit_shown("l", units, &scales, &p.length_unit);
     p.rate = fst_number_shown("mean_alpha_dot", "gamma", units, &scales, &p.rate_unit);
     p.power = fst_unit_shown("l^2 gamma^3", units, &scales, &p.power_unit);
+    p.energy = fst_unit_shown("l^2 gamma^2", units, &scales, &p.energy_unit);
     return p;
 }
 
@@ -86,7 +87,8 @@ static void print_balance(const beads_page *p, const fst_beads_result *result)
     print_power(p, "power lost between beads", result->pair_power);
     print_power(p, "power lost in impacts", result->impact_power);
     (void)fprintf(p->out, "  %-32s %g\n", "restitution of impacts", result->restitution);
-    (void)fprintf(p->out, "  %-32s %.3g\n", "energy residual", result->energy_residual);
+    (void)fprintf(p->out, "  %-32s %.6g %s\n", "energy residual", result->energy_residual * p->energy,
+                  p->energy_unit);
     (void)fprintf(p->out, "  %-32s", "events");
     for (int kind = 0; kind < FST_BEAD_EVENTS; ++kind)
         (void)fprintf(p->out, "%s %s %lld", kind ? "," : "", fst_bead_event_name((fst_bead_event_kind)kind),

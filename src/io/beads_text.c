@@ -153,7 +153,10 @@ static void put_result(page *p, const fst_params *scene, const fst_beads_result 
     put_groups(p, result);
     put_contacts(p, result);
     put_powers(p, result);
-    fst_json_real(&p->json, "energy_residual", result->energy_residual);
+    put(p, "energy_residual", result->energy_residual, "l^2 gamma^2");
+    if (p->with_events) /* files keep their keys */
+        fst_json_real(&p->json, "relative_energy_residual",
+                      result->energy_scale > 0 ? result->energy_residual / result->energy_scale : NAN);
     fst_json_real(&p->json, "restitution", result->restitution);
     put_events(p, result);
     put_paradox(p, &result->paradox);

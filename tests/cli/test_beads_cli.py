@@ -44,6 +44,9 @@ class Runs(Beads):
         self.near(x, -0.541044064192, 2e-10)
         self.near(y, 0.754309504732, 2e-10)
         self.assertLess(abs(run["energy_residual"]), 1e-12)
+        self.assertLess(abs(run["relative_energy_residual"]), 1e-10)
+        window = (run["periods"] - run["scene"]["run.discard"]) * 2 * math.pi / run["omega"]
+        self.assertGreater(run["energy_residual"] / run["relative_energy_residual"], run["powers"]["drive"] * window)
         self.assertEqual(run["outcome"], "apart")
         self.assertEqual([group["kind"] for group in run["groups"]], ["single", "single"])
         self.assertEqual([group["members"] for group in run["groups"]], [[0], [1]])
