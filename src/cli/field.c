@@ -317,14 +317,18 @@ static fst_status write_draws(const arguments *given, fst_params *params, double
 static void print_fit(FILE *out, const fst_map_fit *fit)
 {
     char sentence[256];
+    const int wrong = fit->verdict == FST_NOISE_TOO_SMALL || fit->verdict == FST_NOISE_TOO_LARGE;
     fst_map_fit_sentence(fit, sentence, sizeof sentence);
+    const char *advice = strstr(sentence, "probe") ? " (--probe fits a turned one)"
+                         : wrong                   ? " (leave --noise away: the fit then finds the likeliest)"
+                                                   : "";
     (void)fprintf(
         out,
         "%d charges from %.4g mm below the map on; what is left: %.4g mT rms; noise %.4g mT; chi^2 of %.0f "
         "degrees of freedom: %.4g each\n",
         fit->charges, 1e3 * fit->depth, 1e3 * fit->rms, 1e3 * fit->noise, fit->free, fit->chi2);
     if (sentence[0])
-        (void)fprintf(out, "%s%s\n", sentence, strstr(sentence, "probe") ? " (--probe fits a turned one)" : "");
+        (void)fprintf(out, "%s%s\n", sentence, advice);
     for (int i = 0; i < 3 && fit->turned_error[0] > 0; ++i)
         (void)fprintf(out, "probe, axis %c: turned by %.4f +- %.4f deg, offset %.4g +- %.2g mT\n", "xyz"[i],
                       360.0 / TWO_PI * fit->turned[i], 360.0 / TWO_PI * fit->turned_error[i],

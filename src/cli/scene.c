@@ -98,11 +98,12 @@ static void warn_of_empty(const char *path)
         shown(path, name));
 }
 
-static void warn_of_map(const fst_field_map *map)
+static void warn_of_map(const arguments *given, const fst_field_map *map)
 {
     char doubt[256];
     if (fst_field_map_doubt(map, doubt, sizeof doubt))
-        (void)fprintf(stderr, "festoon: warning: %s (festoon field --smooth)\n", doubt);
+        (void)fprintf(stderr, "festoon: warning: %s%s\n", doubt,
+                      option_value(given, "smooth") ? "" : " (festoon field --smooth)");
 }
 
 /* The map of the scene, which lives until the command is done. */
@@ -115,7 +116,7 @@ static fst_status read_map(const arguments *given, fst_params *params, fst_error
     const fst_status status = fst_params_read_map(params, &progress, given->map, error);
     progress_end(&line);
     if (status == FST_OK && *given->map)
-        warn_of_map(*given->map);
+        warn_of_map(given, *given->map);
     return status;
 }
 

@@ -274,7 +274,10 @@ class Smooth(Maps):
         self.assertEqual({len(line.split(",")) for line in lines[2:]}, {10})
         self.assertEqual(len(lines), 3 + len(self.rows))
         self.assertLess(json.loads(self.good("check", *self.over(name), "--json"))["map"]["curl"], 1e-3)
-        self.assertIn("--smooth", festoon("check", *self.over(self.noisy))[2])
+        self.assertIn("(festoon field --smooth)", festoon("check", *self.over(self.noisy))[2])
+        warned = festoon("field", *self.over(self.noisy), "--smooth", "--at", "0,0")[2]  # it is what runs
+        self.assertIn("has a curl of", warned)
+        self.assertNotIn("--smooth", warned)
         run = json.loads(self.good("run", *self.over(name, *SHORT), "--json"))
         exact = json.loads(self.good("run", *B0, *SHORT, "--json"))
         self.assertAlmostEqual(run["mean_r"], exact["mean_r"], delta=0.01 * exact["mean_r"])
@@ -299,7 +302,8 @@ class Smooth(Maps):
             self.assertTrue(low < fit["noise_seen_tesla"] < high)
             self.assertIn(words, fit["sentence"])
             text = self.good("field", *self.over(self.noisy), "--smooth", *told, "--at", "0,0")
-            self.assertEqual(text.splitlines()[1], fit["sentence"])
+            advice = "" if verdict == "agrees" else " (leave --noise away: the fit then finds the likeliest)"
+            self.assertEqual(text.splitlines()[1], fit["sentence"] + advice)
         fit = self.told()["fit"]
         self.assertEqual((fit["noise_verdict"], fit["sentence"], fit["noise_told_tesla"]), ("not told", "", None))
         self.assertEqual(fit["chi2_bound"], [None, None])
