@@ -181,6 +181,19 @@ static void match_keys(const char *const *paths, int count, wanted *w)
         w->sweeps.keys[0] = w->observable;
 }
 
+/* Beside other keys the regime is the colour of a sweep's points, which here tells the files. */
+static fst_status check_keys(const wanted *w, fst_error *error)
+{
+    const char *const *keys = w->sweeps.keys;
+    for (int k = 1; k < FST_FIGURE_KEYS && keys[0] && keys[k]; ++k)
+        if (strcmp(keys[k], "regime") == 0)
+            return fst_fail(error, FST_BAD_INPUT, "fst_sweep_figure.keys",
+                            "of several files a colour tells the file, and not the regime of a point: ask for "
+                            "the regime first, as in regime,%s, or draw each file alone",
+                            keys[0]);
+    return FST_OK;
+}
+
 fst_status fst_figure_over(const char *const *paths, int count, const fst_figure_options *trajectories,
                            const fst_sweep_figure *sweeps, const char *observable, const char *out,
                            fst_error *error)
@@ -198,7 +211,7 @@ fst_status fst_figure_over(const char *const *paths, int count, const fst_figure
         observable && w.branches == 0
             ? fst_fail(error, FST_BAD_INPUT, "fst_figure_branch.observable",
                        "\"%.60s\" is asked for of branches, and none of these is one", observable)
-            : FST_OK;
+            : check_keys(&w, error);
     for (int i = 0; i < count && status == FST_OK; ++i) {
         sources[i].path = paths[i];
         status = take(&sources[i], &w, error);

@@ -395,6 +395,10 @@ class Over(Figures):
         for names in (("f.db", "k.db"), ("f.db", "t.csv"), ("t.csv", "f.db")):
             self.assertIn("no axis in common", self.refused("plot", *map(self.path, names), *out), names)
         self.assertIn("--only KEY=VALUE", self.refused("plot", self.path("f.db"), self.path("two.db"), *out))
+        both = ("plot", self.path("f.db"), self.path("f.db"))
+        self.assertIn("--quantity: of several files a colour tells the file, and not the regime of a point: ask for the regime first, "
+                      "as in regime,mean_r,", self.refused(*both, "--quantity", "mean_r,regime", *out))
+        self.good(*both, "--quantity", "regime,mean_r", "-o", self.path("yes.svg"))
         self.assertIn("path, time, section and ramp",
                       self.refused("plot", self.path("t.csv"), self.path("t.csv"), "--kind", "local-n", *out))
         self.refused("plot", *[self.path("f.db")] * 9, *out)
