@@ -36,11 +36,26 @@ static void print_spectrum(FILE *out, const fst_lyapunov *l)
                       unsigned_zero(l->divergence, 9));
 }
 
+/* Only the equations of one bead on a flat plate are there in their derivatives too. */
+static fst_status check_alone(const fst_params *params, fst_error *error)
+{
+    const char *key = params->bead_count ? "beads" : fst_key_of_world(params);
+    if (!key)
+        return FST_OK;
+    return fail(error, FST_BAD_INPUT, key,
+                "festoon lyapunov takes one bead on a flat plate in air: only of its equations it has the "
+                "derivatives.  Whether a small disturbance grows, the multipliers of festoon orbit and the "
+                "eigenvalues of festoon locked say; of another motion compare the trajectories of two runs "
+                "(festoon run -o) whose starts differ by little");
+}
+
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     fst_params params;
     fst_lyapunov spectrum;
     fst_status status = read_scene(given, operand(given), &params, error);
+    if (status == FST_OK)
+        status = check_alone(&params, error);
     if (status != FST_OK)
         return status;
     warn_of_material(&params);

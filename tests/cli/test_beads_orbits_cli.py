@@ -61,7 +61,8 @@ class ForEver(Case):
     def test_what_is_refused(self):
         scene = self.scene(OPPOSITE)
         over = ("--over", "drive.frequency=10:40")
-        for words, part in ((("lyapunov", scene), "takes one bead"),
+        for words, part in ((("lyapunov", scene), "beads: festoon lyapunov takes one bead on a flat plate in air: only of its equations"),
+                            (("lyapunov", scene), "multipliers of festoon orbit"),
                             (("orbit", scene, "--festoons", "3"), "--festoons is for one bead"),
                             (("branch", scene, "--kind", "counter", *over), "--kind locked"),
                             (("branch", scene, "--kind", "locked", *over, "-o", self.path("b.json")), "--output"),
