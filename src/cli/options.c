@@ -96,19 +96,40 @@ static void list_names(const option *table, char *names, size_t size)
     }
 }
 
+/* What to type instead of an option that a command has not; capitals are no difference. */
+static const char *suggest_option(const command *of, const char *word, char suggestion[FST_SUGGESTION_SIZE])
+{
+    char names[1024] = "", small[64];
+    (void)snprintf(small, sizeof small, "%s", word);
+    for (char *c = small; *c; ++c)
+        *c = (char)(*c >= 'A' && *c <= 'Z' ? *c - 'A' + 'a' : *c);
+    list_names(common_options, names, sizeof names);
+    list_names(of->options, names, sizeof names);
+    return fst_suggest_name(small, names, suggestion);
+}
+
 static fst_status unknown_option(const command *of, const char *word, fst_error *error)
 {
-    char names[1024] = "", suggestion[FST_SUGGESTION_SIZE];
+    char suggestion[FST_SUGGESTION_SIZE];
     char written[64];
     (void)snprintf(written, sizeof written, "%.*s", (int)strcspn(word, "="), word);
     const char *meant = word[1] == '-' && find_long(of, "set", 3) ? parameter_named(written + 2) : NULL;
     if (meant)
         return fail(error, FST_BAD_INPUT, "", "unknown option %s; a parameter is set by --set %s=VALUE",
                     written, meant);
-    list_names(common_options, names, sizeof names);
-    list_names(of->options, names, sizeof names);
     return fail(error, FST_BAD_INPUT, "", "unknown option %s; %s", written,
-                fst_suggest_name(written, names, suggestion));
+                suggest_option(of, written, suggestion));
+}
+
+/* One argument too many; it may be an option without its dashes. */
+static fst_status unexpected_argument(const command *of, const char *word, fst_error *error)
+{
+    char dashed[64], suggestion[FST_SUGGESTION_SIZE];
+    (void)snprintf(dashed, sizeof dashed, "--%s", word);
+    suggest_option(of, dashed, suggestion);
+    const int is_near = strncmp(suggestion, "the nearest", strlen("the nearest")) == 0;
+    return fail(error, FST_BAD_INPUT, "", "unexpected argument \"%.60s\"%s%s", word,
+                is_near ? "; options begin with dashes: " : "", is_near ? suggestion : "");
 }
 
 const option *find_option(const command *of, const char *word)
@@ -190,7 +211,7 @@ fst_status read_arguments(const command *of, int count, char **words, arguments 
         else if (given->operand_count < of->most_operands)
             given->operands[given->operand_count++] = word;
         else
-            status = fail(error, FST_BAD_INPUT, "", "unexpected argument \"%.60s\"", word);
+            status = unexpected_argument(of, word, error);
         if (status != FST_OK)
             return status;
     }

@@ -357,15 +357,21 @@ fst_status fst_sweep_check_key(const fst_grid *grid, const char *key, const char
 
 fst_status fst_sweep_find(sqlite3_stmt *row, const char *key, const char *where, int *place, fst_error *error)
 {
+    static const char *const whose[] = {[FST_ROWS_OF_RUNS] = "one bead",
+                                        [FST_ROWS_OF_BEADS] = "several beads",
+                                        [FST_ROWS_OF_WORLDS] = "a bead in a world",
+                                        [FST_ROWS_OF_LEVITATION] = "places where a bead floats"};
+    char names[4096], suggestion[FST_SUGGESTION_SIZE];
     *place = fst_sweep_place(row, key);
     if (*place > 0)
         return FST_OK;
-    return fst_fail(error, FST_BAD_INPUT, where, "the rows of this sweep, of %s, have no %s",
-                    fst_sweep_place(row, "outcome")  ? "several beads"
-                    : fst_sweep_place(row, "frame")  ? "a bead in a world"
-                    : fst_sweep_place(row, "places") ? "places where a bead floats"
-                                                     : "one bead",
-                    key);
+    const int kind = fst_sweep_place(row, "outcome")  ? FST_ROWS_OF_BEADS
+                     : fst_sweep_place(row, "frame")  ? FST_ROWS_OF_WORLDS
+                     : fst_sweep_place(row, "places") ? FST_ROWS_OF_LEVITATION
+                                                      : FST_ROWS_OF_RUNS;
+    name_keys(kind, kind, names, sizeof names);
+    return fst_fail(error, FST_BAD_INPUT, where, "the rows of this sweep, of %s, have no %s; %s", whose[kind],
+                    key, fst_suggest_name(key, names, suggestion));
 }
 
 int fst_sweep_place(sqlite3_stmt *row, const char *key)

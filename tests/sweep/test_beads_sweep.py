@@ -76,10 +76,11 @@ class Sweeps(Case):
         self.assertEqual(self.good("export", name, "--csv", "--units", "lab").splitlines()[0],
                          "beads[1].start.phi [deg],outcome,groups,mean_r [mm],centre_rate [Hz],status")
         self.assertIn("have no regime", self.refused("export", name, "--csv", "--quantity", "regime"))
+        self.assertIn("have no mean_b; the nearest is mean_r", self.refused("export", name, "--csv", "--quantity", "mean_b"))
         self.good("export", name, "--hdf5", "-o", self.path("s.h5"))
         single = self.path("one.db")
         self.good("sweep", "--set", "run.periods=2", "--set", "run.discard=1", "--over", "start.r=0.8,0.9", "-o", single)
-        self.assertIn("of one bead, have no outcome", self.refused("export", single, "--csv", "--quantity", "outcome"))
+        self.assertIn("of one bead, have no outcome; the nearest is regime", self.refused("export", single, "--csv", "--quantity", "outcome"))
 
     def test_refused(self):
         for words, said in ((("--carry", "up"), "leave this out"), (("--refine", "2"), "leave this out")):

@@ -151,6 +151,9 @@ class ExportKeys(Case):
         out = self.path("t.csv")
         self.assertIn("nearest is mean_r", self.refused("export", path, "--csv", "--quantity", "mean_rr", "-o", out))
         self.assertIn("a name is missing", self.refused("export", path, "--csv", "--quantity", "mean_r,,std_r", "-o", out))
+        for word, said in (("csvv", "options begin with dashes: the nearest is --csv "), ("--JSON", "the nearest is --json ")):
+            self.assertIn(said, self.refused("export", path, word))
+        self.assertRegex(self.refused("export", path, "xyzzy"), 'unexpected argument "xyzzy"$')
         self.assertIn("nearest is lab", self.refused("export", path, "--csv", "--units", "labs", "-o", out))
         self.assertIn("belong to --csv", self.refused("export", path, "--json", "--units", "lab", "-o", out))
         self.assertEqual(os.listdir(self.directory), ["a.db"])
