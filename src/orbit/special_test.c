@@ -192,7 +192,8 @@ fst_status fst_locate_special(const fst_family *family, const fst_node *a, const
         if (fabs(f) <= least ||
             (i > 1 && fabs(f) < fmin(100.0 * least, known) && moved < family->location * family->scale))
             break;
-        close_in(&near, &node, x, (f < 0) != (z.f_lo < 0), b->length);
+        if (!curves_meet) /* close to the place a solution is known poorly across the curve */
+            close_in(&near, &node, x, (f < 0) != (z.f_lo < 0), b->length);
         fst_bracket_take(&z, x, f);
     }
     if (!(fabs(fst_test_value(out, test)) < known))
