@@ -151,7 +151,7 @@ class ExportKeys(Case):
         out = self.path("t.csv")
         self.assertIn("nearest is mean_r", self.refused("export", path, "--csv", "--quantity", "mean_rr", "-o", out))
         self.assertIn("a name is missing", self.refused("export", path, "--csv", "--quantity", "mean_r,,std_r", "-o", out))
-        for word, said in (("csvv", "options begin with dashes: the nearest is --csv "), ("--JSON", "the nearest is --json ")):
+        for word, said in (("csvv", "options begin with dashes: the nearest is --csv "), ("--CSV", "the nearest is --csv ")):
             self.assertIn(said, self.refused("export", path, word))
         self.assertRegex(self.refused("export", path, "xyzzy"), 'unexpected argument "xyzzy"$')
         self.assertIn("nearest is lab", self.refused("export", path, "--csv", "--units", "labs", "-o", out))
