@@ -6,6 +6,7 @@
 #include "follow/rhythm.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/constants.h"
@@ -23,11 +24,13 @@ enum {
 };
 
 #define LEAST_TURNS 2.0 /* of the bead around the centre */
+#define FASTEST 0.85    /* of the rate of the frames: the turning from one to the next still shows this rate */
 
 /* Least squares with up to UNKNOWNS unknowns. */
 typedef struct equations {
     int count;
     double normal[UNKNOWNS * UNKNOWNS], right[UNKNOWNS];
+    double left; /* chi^2 of each number */
 } equations;
 
 static void add(equations *e, const double *row, double off, double weight)
@@ -225,11 +228,11 @@ static void turning_between(const follow_rhythm *r, const follow_turn *a, const 
             change[i][p] = fst_dot(since[i], sums[p], 3);
 }
 
-/* One step towards the waves that explain the rotations.  Returns chi^2 before it, of `numbers` numbers. */
-static double fit_rotations(const follow_turning *t, double usual, follow_rhythm *r, int *numbers)
+/* One step towards the waves that explain the rotations; `e` gets its equations.  Returns chi^2 before it, of `numbers` numbers. */
+static double fit_rotations(const follow_turning *t, double usual, follow_rhythm *r, equations *e, int *numbers)
 {
-    equations e = {.count = 3 * (2 * r->lines + 1)};
     double chi2 = 0.0;
+    *e = (equations){.count = 3 * (2 * r->lines + 1)};
     *numbers = 0;
     for (int i = 0; i + 1 < t->count; ++i) {
         const follow_turn *a = &t->turns[i], *b = a + 1;
@@ -241,25 +244,28 @@ static double fit_rotations(const follow_turning *t, double usual, follow_rhythm
             double row[UNKNOWNS];
             const double known_off = fst_dot(known[k], off, 3);
             chi2 += off[k] * known_off;
-            for (int p = 0; p < e.count; ++p) {
+            for (int p = 0; p < e->count; ++p) {
                 row[p] = known[k][0] * change[0][p] + known[k][1] * change[1][p] + known[k][2] * change[2][p];
-                e.right[p] += change[k][p] * known_off;
+                e->right[p] += change[k][p] * known_off;
             }
-            for (int p = 0; p < e.count; ++p)
-                for (int q = 0; q < e.count; ++q)
-                    e.normal[p * e.count + q] += change[k][p] * row[q];
+            for (int p = 0; p < e->count; ++p)
+                for (int q = 0; q < e->count; ++q)
+                    e->normal[p * e->count + q] += change[k][p] * row[q];
         }
         *numbers += 3;
     }
-    if (!follow_solve(e.normal, e.right, e.count))
+    double normal[UNKNOWNS * UNKNOWNS], more[UNKNOWNS];
+    memcpy(normal, e->normal, sizeof normal);
+    memcpy(more, e->right, sizeof more);
+    if (!follow_solve(normal, more, e->count))
         return INFINITY;
-    for (int p = 0; p < e.count; ++p)
-        r->rate[p] += e.right[p];
+    for (int p = 0; p < e->count; ++p)
+        r->rate[p] += more[p];
     return chi2;
 }
 
-/* So many lines; returns Schwarz's criterion, by which each number of the rhythm has to earn its place. */
-static double try_lines(const follow_turning *t, double usual, follow_rhythm *r)
+/* So many lines.  Returns Schwarz's criterion, by which each number of the rhythm has to earn its place. */
+static double try_lines(const follow_turning *t, double usual, follow_rhythm *r, equations *e)
 {
     const double unknown = 3 * (2 * r->lines + 1);
     double chi2 = INFINITY, before = INFINITY;
@@ -269,9 +275,34 @@ static double try_lines(const follow_turning *t, double usual, follow_rhythm *r)
     for (int repeat = 0; repeat < MOST_REPEATS && (repeat < REPEATS || chi2 < (1.0 - 1e-6) * before);
          ++repeat) {
         before = chi2;
-        chi2 = fit_rotations(t, usual, r, &numbers);
+        chi2 = fit_rotations(t, usual, r, e, &numbers);
     }
+    e->left = chi2 / numbers;
     return numbers > unknown ? numbers * log(chi2 / numbers) + unknown * log(numbers) : INFINITY;
+}
+
+/* What a component of the slip has beyond so many lines (mm/s), by as many as frames show, `all`, and the equations of these.
+ * What chance makes of a line does not count.  Forces are finite, so V does not leap, but its slope does where dry slip
+ * begins or ends.  The lines of such a V fall as 1/k^2: the squares beyond the last are to those of the upper half as sums
+ * of 1/k^4. */
+static double missing(double radius, const follow_rhythm *all, const equations *e, int lines)
+{
+    const int half = all->lines / 2;
+    const double share = 1.0 / (pow((all->lines + 0.5) / (half + 0.5), 3.0) - 1.0);
+    double left = 0.0, upper = 0.0;
+    for (int p = 0; p < 2 * (2 * all->lines + 1); ++p) {
+        const int k = abs(p / 2 - all->lines);
+        double normal[UNKNOWNS * UNKNOWNS], column[UNKNOWNS] = {0.0}, unused[2];
+        const double slip = arrow(all, p / 2, all->start, unused) * all->place[p] + radius * all->rate[p];
+        memcpy(normal, e->normal, sizeof normal);
+        column[p] = 1.0;
+        if (k <= (lines < half ? lines : half) || !follow_solve(normal, column, e->count))
+            continue;
+        const double square = 0.5 * (slip * slip - radius * radius * e->left * column[p]);
+        left += k > lines ? square : 0.0;
+        upper += k > half ? square : 0.0;
+    }
+    return sqrt(fmax(0.0, left) + share * fmax(0.0, upper));
 }
 
 void follow_rhythm_find(const follow_turning *turning, double usual, follow_rhythm *rhythm)
@@ -281,11 +312,17 @@ void follow_rhythm_find(const follow_turning *turning, double usual, follow_rhyt
     double least = INFINITY;
     if (!goes_round(turning, &tried) || !find_rates(turning, &tried))
         return;
-    for (tried.lines = 0; tried.lines <= FOLLOW_LINES; ++tried.lines) {
-        const double criterion = try_lines(turning, usual, &tried);
+    const double fastest = FASTEST * FST_TWO_PI / usual - fabs(tried.rates[0]);
+    const int most = (int)fmin(FOLLOW_LINES, fastest / fabs(tried.rates[1]));
+    equations e;
+    for (int lines = 0; lines <= most; ++lines) {
+        tried.lines = lines;
+        const double criterion = try_lines(turning, usual, &tried, &e);
         if (criterion < least) {
             least = criterion;
             *rhythm = tried;
         }
     }
+    if (most > 0)
+        rhythm->missing = missing(turning->millimetres, &tried, &e, rhythm->lines);
 }

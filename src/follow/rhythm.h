@@ -20,6 +20,7 @@ typedef struct follow_rhythm {
     double start;    /* s, the time from which phases count */
     double rates[2]; /* w_b, w_r, rad/s */
     double place[FOLLOW_ARROWS + 2], rate[FOLLOW_WAVES];
+    double missing; /* of a component of the slip, in lines that it does not have: mm/s */
 } follow_rhythm;
 
 /* Find it in the good frames, which usually are `usual` (s) apart. */

@@ -403,8 +403,8 @@ static int keep_rhythm(const follow_turning *t, const follow_rhythm *rhythm, con
         follow_rhythm_place(rhythm, time, place, v);
         told[i].slip[0] = v[0] - t->millimetres * w[1];
         told[i].slip[1] = v[1] + t->millimetres * w[0];
-        told[i].w_error = beyond.w;
-        told[i].slip_error = beyond.slip;
+        told[i].w_error = hypot(beyond.w, rhythm->missing / t->millimetres);
+        told[i].slip_error = hypot(beyond.slip, rhythm->missing);
     }
     return 1;
 }
