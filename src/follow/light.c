@@ -5,11 +5,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/dot.h"
 #include "base/order.h"
+#include "base/turn.h"
 
 enum { SHARPENED = 2 }; /* times */
 
 #define LEAST_PART 0.35  /* of the usual spread: a point that changes less is a highlight */
+#define STEEP 4.0        /* the twist, over the height of n */
+#define TWIST 0.02       /* rad, by which it is tried */
 #define LEAST_SIGMA 2e-3 /* of the plate's level */
 #define BESIDE 0.2       /* radii around a highlight that it may reach */
 
@@ -135,4 +139,31 @@ double follow_explain(follow_turning *t)
         if (counts[k] > 0)
             t->sigma[k] = fmax(sqrt(squares[k] / counts[k]), LEAST_SIGMA);
     return all > 0.0 ? 1.0 - left / all : 0.0;
+}
+
+/* Turn the bead about n, one way where n points up and the other way where it points down.  Returns which part is explained. */
+static double twist(follow_turning *t, const double axis[3], double angle)
+{
+    for (int i = 0; i < t->count; ++i) {
+        double n[3];
+        for (int k = 0; k < 3; ++k)
+            n[k] = fst_dot(t->turns[i].pose.turn[k], axis, 3);
+        const double part = angle * tanh(STEEP * n[2]);
+        fst_turn_by(t->turns[i].pose.turn, (const double[3]){part * n[0], part * n[1], part * n[2]});
+    }
+    follow_surface_learn(t);
+    return follow_explain(t);
+}
+
+int follow_untwist(follow_turning *t)
+{
+    double axis[3], by = 0.0;
+    if (!follow_sphere_axis(&t->sphere, axis))
+        return 0;
+    const double middle = twist(t, axis, 0.0), less = twist(t, axis, -TWIST),
+                 more = twist(t, axis, 2.0 * TWIST), bend = 2.0 * middle - less - more;
+    if (bend > 0.0)
+        by = fmax(-3.0, fmin(3.0, 0.5 * (more - less) / bend));
+    (void)twist(t, axis, (by - 1.0) * TWIST);
+    return fabs(by) > 0.1;
 }

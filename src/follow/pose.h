@@ -49,4 +49,8 @@ void follow_centre(follow_turning *t);
 /* Which part of the variance of all faces is explained.  Sigma of each point becomes what is left there. */
 double follow_explain(follow_turning *t);
 
+/* Few frames show both halves of a painted bead, so that passes hardly turn the halves against each other about n.  Turn them
+ * as explains most: at the top of a parabola through three tries.  Returns whether it is worth more passes. */
+int follow_untwist(follow_turning *t);
+
 #endif

@@ -23,7 +23,17 @@
 #include "base/turn.h"
 #include "base/watch.h"
 
-enum { WINDOWS = 24, WINDOW = 60, EARLY = 6, PASSES = 100, SEARCHES = 3, ROUNDS = 3, SPELL = 20, RESTS = 2 };
+enum {
+    WINDOWS = 24,
+    WINDOW = 60,
+    EARLY = 6,
+    PASSES = 100,
+    SEARCHES = 3,
+    ROUNDS = 3,
+    SPELL = 20,
+    RESTS = 2,
+    UNTWISTS = 5
+};
 
 #define WIDE 1.1            /* rad around the prediction: at the start ... */
 #define USUAL 0.5           /* ... and later */
@@ -245,7 +255,7 @@ static fst_status improve_all(follow_turning *t, const fst_progress *progress, d
 {
     double before = -INFINITY; /* what was explained where it was leapt last */
     fst_status status = FST_OK;
-    int rests = 0;
+    int rests = 0, untwists = 0;
     *explained = 0.0;
     for (int pass = 0; pass < PASSES && status == FST_OK && (rests > 0 || *explained > before + LEAST_GAIN);
          ++pass) {
@@ -263,6 +273,10 @@ static fst_status improve_all(follow_turning *t, const fst_progress *progress, d
         rests = leap(t, pasts, rests == 0 && pass > SEARCHES && pass + RESTS < PASSES) ? RESTS
                 : rests > 0                                                            ? rests - 1
                                                                                        : 0;
+        if (rests == 0 && *explained <= before + LEAST_GAIN && untwists++ < UNTWISTS && follow_untwist(t)) {
+            before = -INFINITY;
+            rests = RESTS;
+        }
         status = fst_tell(progress, 0.8 + 0.2 * pass / PASSES, NULL, error);
     }
     return status;

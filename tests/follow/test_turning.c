@@ -389,6 +389,46 @@ static void lines_of_sight(void **state)
     follow_turning_end(&t);
 }
 
+/* How far the half that n points away from is turned about n against the other one. */
+static double twist_of(const follow_turning *t, double (*const turns)[3][3], const double axis[3])
+{
+    double sums[2] = {0.0, 0.0}, counts[2] = {0.0, 0.0};
+    for (int i = 0; i < FRAMES; ++i) {
+        double off[3], n[3];
+        for (int k = 0; k < 3; ++k)
+            n[k] = fst_dot(turns[i][k], axis, 3);
+        fst_turn_between((const double(*)[3])turns[i], (const double(*)[3])t->turns[i].pose.turn, off);
+        if (fabs(n[2]) > 0.4) {
+            sums[n[2] > 0.0] += fst_dot(off, n, 3);
+            counts[n[2] > 0.0] += 1.0;
+        }
+    }
+    return sums[1] / counts[1] - sums[0] / counts[0];
+}
+
+/* Halves of the surface that are twisted against each other come back. */
+static void twisted(follow_turning *t)
+{
+    double axis[3], turns[FRAMES][3][3];
+    assert_true(follow_sphere_axis(&t->sphere, axis));
+    for (int i = 0; i < FRAMES; ++i) {
+        double n[3];
+        memcpy(turns[i], t->turns[i].pose.turn, sizeof turns[i]);
+        for (int k = 0; k < 3; ++k)
+            n[k] = fst_dot(turns[i][k], axis, 3);
+        const double way = 0.05 * fmax(-1.0, fmin(1.0, 2.5 * n[2]));
+        fst_turn_by(t->turns[i].pose.turn, (const double[3]){way * n[0], way * n[1], way * n[2]});
+    }
+    follow_surface_learn(t);
+    const double before = twist_of(t, turns, axis);
+    CHECK_CLOSE(before, 0.1, 1e-6);
+    for (int repeat = 0; repeat < 2; ++repeat)
+        (void)follow_untwist(t);
+    print_message("twisted by %.3f, then by %.3f rad\n", before, twist_of(t, turns, axis));
+    assert_true(fabs(twist_of(t, turns, axis)) < 0.01);
+    assert_false(follow_untwist(t));
+}
+
 /* With the surface and the light learnt of all faces, rotations that were put wrong come back. */
 static void faces(void **state)
 {
@@ -423,6 +463,7 @@ static void faces(void **state)
                   sqrt(before) * 180.0 / FST_PI, sqrt(claimed) * 180.0 / FST_PI);
     assert_true(sqrt(squares) < 1.1 * FST_PI / 180.0); /* a film is to reach 3 */
     assert_true(claimed > 0.0 && sqrt(claimed) < 0.02);
+    twisted(&t);
     follow_turning_end(&t);
 }
 
