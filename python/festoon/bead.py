@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Dict, FrozenSet, Iterable, List, Mapping,
 import numpy as np
 
 from ._errors import BadInput, MaterialWarning, SceneWarning, warn
-from ._keys import keyword_of, known_key
+from ._keys import key_of, keyword_of, known_key
 from ._native import Watch, call, ffi, lib, path_bytes, rows_of, take_text, text_of
 from ._progress import Progress
 from ._quantities import UNSET, value_text
@@ -341,6 +341,8 @@ class Bead(Parameters):
 
     def _parameter(self, key: str) -> Any:
         kind, unit, _ = PARAMETERS[key]
+        if key == "run.discard":
+            return float(lib.fst_run_discard(self._params))  # what holds, where nothing was said too
         value = getattr(self._params, key.replace(".", "_"))
         if kind == "str" and not unit:
             return text_of(value) or None
@@ -472,16 +474,22 @@ class Bead(Parameters):
 
     # ------------------------------------------------------------------ what can be asked of it
 
-    def _asked(self, of_many: bool = False) -> "Bead":
+    def _asked(self, varied: Optional[Iterable[str]] = None) -> "Bead":
         """The bead of which something is asked: refuse values without effect, say where mass and radius
-        contradict any material, but of many beads, and take for run.discard what a run leaves out, so that what is told is
-        done."""
-        call(lib.fst_params_check_effects, self._params)
+        contradict any material, but of the many beads of a sweep or branch over the keys `varied`, and take for
+        run.discard what a run leaves out, so that what is told is done, where one number says it for all runs: as the
+        program does."""
+        keys = frozenset(varied or ())
+        params = ffi.new("fst_params *", self._params[0])
+        if "friction.mu_static" in keys and math.isnan(params.friction_mu_static):
+            params.friction_mu_static = params.friction_mu  # what is varied is given
+        call(lib.fst_params_check_effects, params)
         sentence = ffi.new("char[]", 512)
-        if not of_many and lib.fst_bead_contradiction(self._params, sentence, 512):
+        if varied is None and lib.fst_bead_contradiction(self._params, sentence, 512):
             warn(text_of(sentence), MaterialWarning)
         discard = lib.fst_run_discard(self._params)
-        if discard == self._params.run_discard:
+        one_length = math.isnan(self._params.run_duration) and keys.isdisjoint(("run.periods", "run.duration"))
+        if discard == self._params.run_discard or not one_length:
             return self
         made = self.replace()
         made._params.run_discard = discard
@@ -688,7 +696,7 @@ class Bead(Parameters):
         """
         from . import beads_orbits, branches
 
-        asked = self._asked(of_many=True)
+        asked = self._asked(map(key_of, keywords))
         world = text_of(lib.fst_key_of_world(asked._params))
         if world and kind == "locked":
             return beads_orbits.branch(asked, progress, keywords)  # type: ignore[return-value]

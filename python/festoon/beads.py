@@ -231,7 +231,7 @@ class Beads(Bead):
         """
         from . import beads_orbits
 
-        return beads_orbits.branch(self._asked(), progress, ranges)  # type: ignore[arg-type]
+        return beads_orbits.branch(self._asked(map(key_of, ranges)), progress, ranges)  # type: ignore[arg-type]
 
     def __repr__(self) -> str:
         rest = super().__repr__()[len("Beads(") :]

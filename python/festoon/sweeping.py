@@ -8,7 +8,7 @@ import numpy as np
 
 from ._errors import BadInput, MaterialWarning, OutOfMemory, SceneWarning, warn
 from ._given import of_class, whole_of, word_of
-from ._keys import known_key
+from ._keys import key_of, known_key
 from ._native import Watch, ffi, lib, options_of, path_bytes, places_of, strings, text_of
 from ._progress import Progress
 from ._quantities import value_text
@@ -180,7 +180,7 @@ def sweep(
     """
     bead = Bead() if bead is None else bead
     of_class(bead, "Bead", "bead")
-    bead = bead._asked(of_many=True)
+    bead = bead._asked(map(key_of, axes))
     whole_of(seed, "seed", 2**64 - 1)
     whole_of(lanes, "lanes")
     texts = [axis_text(keyword, values) for keyword, values in axes.items()]

@@ -71,6 +71,38 @@ def test_sweep(program, tmp_path, portable):
         assert ours[1, 0].to_dict() == ours.bead(1, 0).run().to_dict()
 
 
+SHORT = {"run__duration": "0.5 s", "frequency": "20 Hz"}
+
+
+@pytest.mark.parametrize("setup, axes", [
+    (fs.Bead(**SHORT), {"frequency": [6, 8, 20, 30]}),
+    (fs.Bead(**SHORT), {"omega": [0.1, 0.3]}),
+    (fs.Bead(run__periods=300, friction__law="coulomb"), {"run__periods": [6, 9]}),
+    (fs.Bead(run__periods=6, friction__law="coulomb", friction__stribeck_speed="5 mm/s"), {"friction__mu_static": [0.3, 0.4]}),
+    (fs.Beads(beads=[{"start__phi": 3}, {"start__phi": 183}], **SHORT), {"frequency": [8, 30]}),
+    (fs.World(plate__shape="bowl", plate__bowl_radius="200 mm", **SHORT), {"omega": [0.1, 0.3]})])
+def test_what_is_left_out_of_means_follows_each_run(program, tmp_path, setup, axes):
+    """A duration has a number of periods at each drive, and half of them are left out."""
+    setup.save(tmp_path / "setup.yaml")
+    words = [word for name, values in axes.items() for word in ("--over", f"{fs._keys.key_of(name)}={','.join(map(str, values))}")]
+    subprocess.run([program, "sweep", "setup.yaml", *words, "-o", "s.db"], cwd=tmp_path, check=True, capture_output=True)
+    theirs, ours = fs.read(tmp_path / "s.db"), fs.sweep(setup, **axes)
+    if isinstance(ours, fs.Sweep):
+        assert ours == theirs and ours.done.all()
+    else:
+        told = [{name: str(column) for name, column in s.to_dict().items() if not name.endswith("seconds")} for s in (ours, theirs)]
+        assert told[0] == told[1] and set(ours.status) == {"done"}
+
+
+def test_branch_of_a_setup_with_a_duration(program, tmp_path):
+    subprocess.run([program, "init", "lev.yaml", "--world", "levitation"], cwd=tmp_path, check=True, capture_output=True)
+    words = ["branch", "--kind", "levitating", str(tmp_path / "lev.yaml"), "--over", "drive.frequency=60:70", "--json"]
+    branch = fs.World(tmp_path / "lev.yaml").branch(kind="levitating", frequency=(60, 70))
+    assert branch.to_dict()["points"] == ask(program, *words)["points"]
+    assert fs.Bead(**SHORT).run__discard == fs.Bead(run__periods=10).run__discard == 5
+    assert fs.Bead().replace(**SHORT).run(discard=2).bead.run__discard == 2
+
+
 def test_orbit_and_locked_states(program):
     assert fs.Bead().orbit().to_dict() == ask(program, "orbit", "--json")
     assert fs.Bead(frequency=25).locked().to_dict() == ask(program, "locked", "--json", "--set", "drive.frequency=25")

@@ -118,7 +118,7 @@ def test_what_a_sweep_can_hardly_mean_is_warned_of():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         solid.replace(frequency=9)
-        fs.Bead(magnet__parts=[parts[0], {**parts[1], "remanence": [-1.2, 0, 0]}])  # a hole
+        fs.Bead(magnet__parts=[parts[0], {**cube, "size": ["4 mm"] * 3, "centre": [0.002, 0, 0], "remanence": [-1.2, 0, 0]}])  # a hole
         fs.sweep(few.replace(bead__radius="3 mm"), bead__radius=["2.5 mm"])
 
 
