@@ -132,6 +132,28 @@ class BeadsLocked(_Found):
         return f"BeadsLocked: {count} bead{'s' if count > 1 else ''}, {words}, power {self.power:.6g} l^2 gamma^3"
 
 
+class BeadsSpecial(Dict[str, Any]):
+    """A special point of such a branch: what the program prints of it, as items and attributes."""
+
+    #: fold, hopf, contact, ...
+    type: str
+    #: The key of the parameter, and its value in the unit of the key.
+    parameter: str
+    value: float
+    #: The drive [gamma].
+    omega: float
+    #: The locked state there, as one of `BeadsBranch.points`.
+    at: Dict[str, Any]
+
+    def __getattr__(self, name: str) -> Any:
+        if name not in self:
+            raise AttributeError(f"a special point has no {name}; it has {', '.join(self)}")
+        return self[name]
+
+    def __repr__(self) -> str:
+        return f"BeadsSpecial: {self.type} at {self.parameter} = {self.value:.9g}"
+
+
 class BeadsBranch(_Found):
     """Locked states of several beads over one parameter."""
 
@@ -156,9 +178,9 @@ class BeadsBranch(_Found):
         return [dict(point) for point in self._told["points"]]
 
     @property
-    def specials(self) -> List[Dict[str, Any]]:
+    def specials(self) -> List[BeadsSpecial]:
         """Where it bends, sways or breaks: type (fold, hopf, contact, ...) and value, and the state there."""
-        return [dict(special) for special in self._told["specials"]]
+        return [BeadsSpecial(special) for special in self._told["specials"]]
 
     def _table(self, units: Optional[str]) -> Table:
         points = self._told["points"]
@@ -173,7 +195,7 @@ class BeadsBranch(_Found):
         return made
 
     def __repr__(self) -> str:
-        specials = ", ".join(f"{special['type']} at {special['value']:.6g}" for special in self.specials)
+        specials = ", ".join(f"{special.type} at {special.value:.6g}" for special in self.specials)
         return f"BeadsBranch: {len(self.values)} points over {self.parameter}; {specials or 'no special point'}"
 
 

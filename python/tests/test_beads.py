@@ -218,8 +218,9 @@ def test_locked_and_branch():
     assert all(abs(bead["load_weights"] - 19.72219) < 5e-6 for bead in locked.beads)
     assert abs(locked.pair_forces[0]["force"] - 3.29360694) < 5e-9 and len(locked.eigenvalues) == 16
     branch = bar.branch(frequency=(25, "400 Hz"))
-    assert [special["type"] for special in branch.specials] == ["hopf", "hopf", "contact"]
-    assert abs(branch.specials[2]["value"] - 255.27) < 0.01 and branch.parameter == "drive.frequency"
+    assert [special["type"] for special in branch.specials] == [special.type for special in branch.specials] == ["hopf", "hopf", "contact"]
+    assert pickle.loads(pickle.dumps(branch.specials)) == branch.specials and not hasattr(branch.specials[0], "typ")
+    assert abs(branch.specials[2].value - 255.27) < 0.01 and branch.parameter == "drive.frequency"
     sways = (branch.values > branch.specials[0]["value"]) & (branch.values < branch.specials[1]["value"])
     assert (branch.stable != sways).all() and len(branch.points) == len(branch.values) and "hopf at 194.2" in repr(branch)
     with pytest.raises(fs.NoConvergence, match="no state in which they turn with the magnet"):

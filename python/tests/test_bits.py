@@ -77,7 +77,7 @@ SHORT = {"run__duration": "0.5 s", "frequency": "20 Hz"}
 @pytest.mark.parametrize("setup, axes", [
     (fs.Bead(**SHORT), {"frequency": [6, 8, 20, 30]}),
     (fs.Bead(**SHORT), {"omega": [0.1, 0.3]}),
-    (fs.Bead(run__periods=300, friction__law="coulomb"), {"run__periods": [6, 9]}),
+    (fs.Bead(run__periods=100, friction__law="coulomb"), {"run__periods": [6, 9]}),
     (fs.Bead(run__periods=6, friction__law="coulomb", friction__stribeck_speed="5 mm/s"), {"friction__mu_static": [0.3, 0.4]}),
     (fs.Beads(beads=[{"start__phi": 3}, {"start__phi": 183}], **SHORT), {"frequency": [8, 30]}),
     (fs.World(plate__shape="bowl", plate__bowl_radius="200 mm", **SHORT), {"omega": [0.1, 0.3]})])
