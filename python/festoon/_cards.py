@@ -101,5 +101,5 @@ def run_card(run: Any) -> str:
             there = lab.unit(name)
             shown = "" if there == unit else f"{number(getattr(lab, name))} {there}"
             rows.append(_row([name, number(value) + ("" if unit == "1" else f" {unit}"), shown], doc))
-    head = html.escape(run.regime + (f", {run.symmetry}" if run.symmetry else ""))
+    head = html.escape((run.regime or run.status) + (f", {run.symmetry}" if run.symmetry else ""))
     return f"<b>{head}</b><br/>{html.escape(run.reason)}<table {STYLE}>{''.join(rows)}</table>"

@@ -211,10 +211,7 @@ class Bead(Parameters):
     @classmethod
     def _of(cls, params: Any, field_map: Any = None) -> "Bead":
         """The bead of parameters in C, which are copied; they may use `field_map`, and no other map."""
-        made = cls.__new__(cls)
-        made._params = ffi.new("fst_params *", params)
-        made._map = field_map
-        made._params.magnet_map = field_map or ffi.NULL
+        made = cls._unmade(params, field_map)
         made._make()
         return made
 
@@ -226,10 +223,12 @@ class Bead(Parameters):
         return cls._unmade(params)
 
     @classmethod
-    def _unmade(cls, params: Any) -> "Bead":
-        """A bead of which nothing is asked yet: without a model, and without the map of its magnet."""
+    def _unmade(cls, params: Any, field_map: Any = None) -> "Bead":
+        """A bead of which nothing is asked yet: without a model, and without the map of its magnet unless it is given."""
         made = cls.__new__(cls)
         made._params = ffi.new("fst_params *", params)
+        made._map = field_map
+        made._params.magnet_map = field_map or ffi.NULL
         return made
 
     @classmethod

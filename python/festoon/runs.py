@@ -5,7 +5,7 @@ import math
 import os
 from typing import Any, Dict, List, Optional, Union
 
-from ._errors import BadInput
+from ._errors import BadInput, FestoonError
 from ._given import whole_of
 from ._native import Watch, call, dtype_of, ffi, freed_array, lent, lib, options_of, path_bytes, state_of, take_text, text_of
 from ._pickled import Told, image_of, struct_of
@@ -72,6 +72,10 @@ class Run(Tabled, Told, RunNumbers):
     ramp: Any
     #: False: the run was interrupted.
     complete: bool
+    #: "done"; of a run of a sweep also "missing", or in what way it failed: then its numbers are NaN.
+    status: str = "done"
+    #: Why a run of a sweep failed, an exception; None: it did not.
+    error: Optional[FestoonError] = None
 
     def __init__(
         self, bead: Bead, result: Any, trajectory: Any = None, ramp: Any = None, complete: bool = True
@@ -86,7 +90,8 @@ class Run(Tabled, Told, RunNumbers):
         return float(getattr(self._result, name))
 
     def __reduce__(self) -> Any:
-        return _again, (self.bead, image_of(self._result), self.trajectory, self.ramp, self.complete)
+        samples = self.trajectory, self.ramp
+        return _again, (self.bead, image_of(self._result), *samples, self.complete, self.status, self.error)
 
     def _facts(self) -> Any:
         samples = None if self.trajectory is None else self.trajectory.tobytes()
@@ -94,8 +99,8 @@ class Run(Tabled, Told, RunNumbers):
 
     @property
     def regime(self) -> str:
-        """counter-rotating, corotating, locked, librating, chaotic, ejected, lifted or undecided."""
-        return REGIMES[int(self._result.regime)]
+        """counter-rotating, corotating, locked, librating, chaotic, ejected, lifted or undecided; "" without a result."""
+        return REGIMES[int(self._result.regime)] if self.status == "done" else ""
 
     @property
     def symmetry(self) -> Optional[str]:
@@ -104,8 +109,8 @@ class Run(Tabled, Told, RunNumbers):
 
     @property
     def reason(self) -> str:
-        """Why this regime: the criterion and its numbers."""
-        return text_of(self._result.reason)
+        """Why this regime: the criterion and its numbers; or why there is no result."""
+        return self.error.sentence if self.error else text_of(self._result.reason)
 
     @property
     def never_slips(self) -> Optional[bool]:
@@ -189,9 +194,13 @@ class Run(Tabled, Told, RunNumbers):
         text: Dict[str, Any] = json.loads(
             take_text(lib.fst_run_json(self.bead._params, self._result, points, count))
         )
+        if self.status != "done":
+            text.update(status=self.status, regime=None, symmetry=None, reason=self.reason)
         return text
 
     def __repr__(self) -> str:
+        if self.status != "done":
+            return f"Run: {self.status}: {self.reason}"
         head = f"Run: {self.regime}" + (f", {self.symmetry}" if self.symmetry else "")
         lines = [head + ("" if self.complete else " (interrupted)")]
         for name in HEADLINES:
@@ -208,9 +217,11 @@ class Run(Tabled, Told, RunNumbers):
         return _cards.run_card(self)
 
 
-def _again(bead: Bead, image: Any, trajectory: Any, ramp: Any, complete: bool) -> Run:
+def _again(bead: Bead, image: Any, trajectory: Any, ramp: Any, complete: bool, status: str, error: Any) -> Run:
     """A run from another process, which must have the same build."""
-    return Run(bead, struct_of(image), trajectory, None if ramp is None else lent(ramp), complete)
+    run = Run(bead, struct_of(image), trajectory, None if ramp is None else lent(ramp), complete)
+    run.status, run.error = status, error
+    return run
 
 
 def _ramp_ends(bead: Bead, ramp: Any, options: Any) -> None:

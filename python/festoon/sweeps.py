@@ -7,7 +7,7 @@ from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 
-from ._errors import BadInput, FestoonError, Interrupted, OutOfMemory, warn
+from ._errors import BadInput, FestoonError, OutOfMemory, warn
 from ._keys import key_of
 from ._native import Watch, call, dtype_of, exception_of, ffi, lent, lib, owned_array, path_bytes, strings, text_of
 from ._tabled import NUMBERS, OF_PLATE, Table, Tabled, about, numbers_of, scaled_columns
@@ -61,7 +61,8 @@ class SweepIn(SweepNumbers):
 class Sweep(Tabled, SweepNumbers):
     """Results over a grid.  Every number of a run is an array of the grid's shape, NaN where a run failed.
 
-    An index gives a run, a slice or a mask a smaller sweep: ``s[0, 1]``, ``s[:, 1]``, ``s[s.failed]``.
+    An index gives a run, a slice or a mask a smaller sweep: ``s[0, 1]``, ``s[:, 1]``, ``s[s.failed]``.  A run that
+    failed has a `status` and an `error`, and NaN for its numbers.
     """
 
     def __init__(self, rows: Any, grid: Any, owner: Any, field_map: Any = None) -> None:
@@ -178,16 +179,21 @@ class Sweep(Tabled, SweepNumbers):
         return tuple(f"point{i or ''}" for i in range(count))
 
     def _run(self, point: int) -> Run:
+        """The run of a point; where there is no result, one whose numbers are NaN."""
         row = self._rows[point]
-        if not row["done"] and self.refined:
-            raise BadInput("sweep", "this point was not computed, because the sweep was refined: see `computed`")
-        if not row["done"]:
-            raise Interrupted()
-        if row["status"] != lib.FST_OK:
-            raise self._error(point) or AssertionError("a failed run has an error")
         result = ffi.new("fst_run_result *")
         ffi.memmove(result, np.ascontiguousarray(row["result"]).tobytes(), ffi.sizeof("fst_run_result"))
-        return Run(self._bead(point), result)
+        if row["done"] and row["status"] == lib.FST_OK:
+            return Run(self._bead(point), result)
+        params = ffi.new("fst_params *")
+        lib.fst_grid_params(self._grid, point, params, ffi.NULL)  # which may be why it failed
+        result.symmetry = 0
+        run = Run(Bead._unmade(params[0], self._map), result, complete=bool(row["done"]))
+        run.status = text_of(lib.fst_status_text(int(row["status"]))) if row["done"] else "missing"
+        run.error = self._error(point)
+        if not row["done"]:
+            result.reason = b"not computed, because the sweep was refined" if self.refined else b"not made: the sweep was interrupted"
+        return run
 
     # ------------------------------------------------------------------ its numbers
 
@@ -417,6 +423,7 @@ def sweep_of(batch: Any, grid: Any, field_map: Any = None) -> Sweep:
     if lacking.any():
         for name in (*RESULTS, "final_state"):
             rows["result"][name][lacking] = np.nan
+        rows["result"]["never_slips"][lacking] = -1
     return Sweep(rows, grid, owner, field_map)
 
 

@@ -2,6 +2,7 @@
 
 import json
 import math
+import pickle
 import subprocess
 import warnings
 
@@ -37,8 +38,16 @@ def test_a_failed_run_is_a_row():
     failed = s[s.failed]
     assert failed.shape == (1,) and isinstance(failed.errors[0], fs.BadInput) and "rolling" in str(failed.errors[0])
     assert math.isnan(s.mean_r[1]) and s.regime[1] == "" and s.errors[0] is None
-    with pytest.raises(fs.BadInput):
-        s[1]
+    runs = list(s)
+    assert [run.status for run in runs] == ["done", "bad input", "done"] == s.status.tolist()
+    assert runs[1].bead.start__r == eps and "rolling" in runs[1].reason
+    assert math.isnan(runs[1].mean_r) and math.isnan(runs[1].lab.mean_r) and runs[1].never_slips is None
+    assert runs[1].regime == "" and runs[1].to_dict()["regime"] is None and "bad input: a free-rolling start" in repr(runs[1])
+    again = pickle.loads(pickle.dumps(runs[1]))
+    assert again == runs[1] != runs[0] and again.status == "bad input" and str(again.error) == str(s.errors[1])
+    impossible = fs.sweep(bead.replace(run__discard=3), run__periods=[2, 4])[0]
+    assert impossible.status == "bad input" and "leaves nothing" in impossible.reason and "nothing" in impossible._repr_html_()
+    assert math.isnan(impossible.to_dict()["mean_r"] or math.nan) and impossible.to_pandas().mean_r.isna().all()
 
 
 def test_sweep_for_other_libraries():
@@ -197,8 +206,8 @@ def test_a_refined_sweep(bead):
     assert (names[between[known].astype(int)] != whole.regime[known]).sum() <= 15
     assert part.refined and not whole.refined and f"{(~part.computed).sum()} left out (refined)" in repr(part)
     assert set(part.regime[~part.computed]) == {""} and part[part.computed].complete
-    with pytest.raises(fs.BadInput, match="was not computed, because the sweep was refined"):
-        part[tuple(np.argwhere(~part.computed)[0])]
+    left_out = part[tuple(np.argwhere(~part.computed)[0])]
+    assert left_out.status == "missing" and not left_out.complete and "because the sweep was refined" in repr(left_out)
 
 
 def test_how_a_sweep_is_refined(bead):
