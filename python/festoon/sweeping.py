@@ -76,7 +76,13 @@ def _into_file(
         watch.call(lib.fst_sweep, bead._params, path_bytes(path), options, counts)
     if 0 < counts.undefined == counts.computed:
         warn(f"{by or 'regime'} has no value in any run, so nothing was refined")
+    if counts.all_failed[0] != b"\0":
+        _warn_of_failures(text_of(counts.all_failed))
     return read_sweep(path)
+
+
+def _warn_of_failures(first: str) -> None:
+    warn(f"no run of this sweep could be made; the first: {first}")
 
 
 def _warn(grid: Any, levitation: bool) -> None:
@@ -169,7 +175,7 @@ def sweep(
 
     Notes
     -----
-    A run that fails is a row of NaN with an error, not an exception.  Ctrl-C raises `Interrupted`, whose
+    A run that fails is a row of NaN with an error, not an exception; where all fail, a warning has the first reason.  Ctrl-C raises `Interrupted`, whose
     `partial` is the sweep with the rows that were done.
 
     Examples
@@ -203,4 +209,6 @@ def sweep(
             )
     made = _in_memory(grid, bead._map, count, lanes, portable, progress)
     made._seed = seed
+    if made.size and made.failed.all():
+        _warn_of_failures(f"{made.status.flat[0]}: {made.reason.flat[0]}")
     return made

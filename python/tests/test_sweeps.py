@@ -45,6 +45,13 @@ def test_a_failed_run_is_a_row():
     assert runs[1].regime == "" and runs[1].to_dict()["regime"] is None and "bad input: a free-rolling start" in repr(runs[1])
     again = pickle.loads(pickle.dumps(runs[1]))
     assert again == runs[1] != runs[0] and again.status == "bad input" and str(again.error) == str(s.errors[1])
+    told = []
+    for carry in (None, "up"):  # in memory, and through a file
+        with pytest.warns(UserWarning, match="no run of this sweep could be made; the first: bad input: a free-rolling") as of_all:
+            fs.sweep(bead, start__r=[eps], kappa=[1, 2], carry=carry)
+        told.append([str(one.message) for one in of_all])
+        assert of_all[0].filename == __file__
+    assert told[0] == told[1] and len(told[0]) == 1
     impossible = fs.sweep(bead.replace(run__discard=3), run__periods=[2, 4])[0]
     assert impossible.status == "bad input" and "leaves nothing" in impossible.reason and "nothing" in impossible._repr_html_()
     assert math.isnan(impossible.to_dict()["mean_r"] or math.nan) and impossible.to_pandas().mean_r.isna().all()
