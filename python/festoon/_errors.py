@@ -129,6 +129,10 @@ ARGUMENTS = {
 }
 
 
+#: Calls that have another name in Python than in C.
+PLACES = {"sweep_merge": "merge", "field_map_smooth": "smooth", "describe_orbit": "orbit", "beads_run": "run", "camera_film": "film"}
+
+
 def place_in_python(where: str) -> str:
     """Where an error lies: an argument of a call, or the call, by its name in Python."""
     if not where.startswith("fst_"):
@@ -136,7 +140,7 @@ def place_in_python(where: str) -> str:
     call, _, argument = where[len("fst_") :].partition(".")
     if argument:
         return "branch" if call == "branch_options" and argument in ("from", "to") else ARGUMENTS.get(argument, argument)
-    return re.sub("_(options|new|find|of|follow|near)$", "", call)
+    return PLACES.get(call, re.sub("_(options|new|find|of|follow|near)$", "", call))
 
 
 def sentence_in_python(sentence: str) -> str:

@@ -4,7 +4,7 @@ import contextlib
 import operator
 import os
 import tempfile
-from typing import Any, Dict, Iterator, Optional, Sequence
+from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence
 
 import numpy as np
 
@@ -36,6 +36,30 @@ def whole_of(value: Any, where: str, most: int = 2**31 - 1) -> int:
     if not 0 <= number <= most:
         raise BadInput(where, f"{value} is not a whole number from 0 to {most}")
     return number
+
+
+def number_of(value: Any, where: str) -> float:
+    """A number."""
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{where} must be a number, not {value!r}") from None
+
+
+def numbers_in(values: Any, where: str) -> Any:
+    """An array of numbers."""
+    try:
+        return np.ascontiguousarray(values, float)
+    except (TypeError, ValueError):
+        raise BadInput(where, f"{values!r} is no array of numbers") from None
+
+
+def rows_in(values: Any, where: str, of_what: str) -> List[Mapping[str, Any]]:
+    """A list of dictionaries."""
+    rows = list(values) if isinstance(values, Iterable) and not isinstance(values, (str, Mapping)) else [values]
+    if isinstance(values, Mapping) or not all(isinstance(row, Mapping) for row in rows):
+        raise BadInput(where, f"it must be a list of dictionaries, {of_what}, not {values!r}")
+    return rows
 
 
 def is_path(data: Any) -> bool:

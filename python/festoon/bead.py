@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Dict, FrozenSet, Iterable, List, Mapping,
 import numpy as np
 
 from ._errors import BadInput, MaterialWarning, SceneWarning, warn
+from ._given import rows_in
 from ._keys import key_of, keyword_of, known_key
 from ._native import Watch, call, ffi, lib, path_bytes, rows_of, take_text, text_of
 from ._progress import Progress
@@ -148,7 +149,7 @@ class Bead(Parameters):
     def _set_parts(self, parts: Iterable[Mapping[str, Any]]) -> None:
         """The parts of a real magnet, each a dictionary as in a scene: kind, centre, size, remanence, ..."""
         self._params.magnet_part_count = 0
-        for i, part in enumerate(parts):
+        for i, part in enumerate(rows_in(parts, "magnet.parts", "one a part: [{'kind': 'cuboid', ...}, ...]")):
             if "kind" not in part:
                 raise BadInput(f"magnet.parts[{i}]", "a part needs its kind: cuboid, cylinder, sphere or dipole")
             for name in sorted(part, key=lambda name: name != "kind"):

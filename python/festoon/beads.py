@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, List, Mapping, 
 import numpy as np
 
 from ._errors import BadInput
-from ._given import whole_of
+from ._given import rows_in, whole_of
 from ._keys import key_of, keyword_of
 from ._native import call, ffi, lib, text_of
 from ._progress import Progress
@@ -64,9 +64,7 @@ class Beads(Bead):
 
     def _set_beads(self, beads: Iterable[Mapping[str, Any]]) -> None:
         self._params.bead_count, self._params.bead_list = 0, ffi.NULL
-        for i, bead in enumerate(beads):
-            if not isinstance(bead, Mapping):
-                raise BadInput(f"beads[{i}]", f"{bead!r} is not a dictionary of a bead's parameters")
+        for i, bead in enumerate(rows_in(beads, "beads", "one a bead: [{'start__phi': 3}, {'start__phi': 183}]")):
             for keyword, value in bead.items() or [("start__r", self._text("start.r"))]:
                 key = f"beads[{i}].{_own_key(keyword, i)}"
                 single = isinstance(value, str) or np.ndim(value) == 0

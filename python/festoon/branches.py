@@ -7,6 +7,7 @@ from typing import Any, Dict, Iterator, List, Mapping, Optional, Tuple
 import numpy as np
 
 from ._errors import BadInput, FestoonError, MaterialWarning, warn
+from ._given import number_of, whole_of
 from ._keys import keyword_of, known_key, row_of
 from ._native import (
     Watch,
@@ -325,10 +326,10 @@ def branch(bead: Bead, kind: str, progress: Progress, keywords: Mapping[str, Any
     for name, value in keywords.items():
         if name == "special":
             options.special = _choose(value, SPECIALS, "special")
-        elif name in ("tolerance", "follow"):
-            setattr(options, name, value)
-        elif name == "step":
-            options.longest_step = value
+        elif name == "follow":
+            options.follow = whole_of(value, name, 1)
+        elif name in ("tolerance", "step"):
+            setattr(options, "longest_step" if name == "step" else name, number_of(value, name))
         else:
             ranges.append((known_key(name), range_of(known_key(name), value)))
     if not 1 <= len(ranges) <= 2:

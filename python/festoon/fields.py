@@ -6,6 +6,7 @@ from typing import Any, Tuple
 import numpy as np
 
 from ._errors import BadInput, Interrupted
+from ._given import numbers_in
 from ._native import dtype_of, ffi, lib
 from ._quantities import quantity
 from .bead import Bead
@@ -19,7 +20,7 @@ def _scaled(value: Any, units: str, length: float) -> Any:
     """Places in l: a text has its unit, a number that of `units`."""
     if isinstance(value, str):
         return np.float64(quantity(value, lib.FST_UNIT_LENGTH, "field") / length)
-    numbers = np.asarray(value, float)
+    numbers = numbers_in(value, "field").reshape(np.shape(value))
     return numbers / length if units == "si" else numbers
 
 
@@ -43,7 +44,7 @@ def _in_pieces(function: Any, bead: Bead, count: int, arrays: Any) -> None:
 
 def _states(states: Any, where: str) -> Any:
     size = lib.FST_STATE_SIZE
-    given = np.ascontiguousarray(states, float)
+    given = numbers_in(states, where)
     if given.ndim < 1 or given.shape[-1] != size:
         raise BadInput(where, f"a state has {size} numbers: an array of states has the shape (..., {size})")
     if not np.isfinite(given).all():

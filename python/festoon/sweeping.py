@@ -7,7 +7,7 @@ from typing import Any, Dict, List, Optional, Tuple
 import numpy as np
 
 from ._errors import BadInput, MaterialWarning, OutOfMemory, SceneWarning, warn
-from ._given import of_class, whole_of, word_of
+from ._given import number_of, of_class, whole_of, word_of
 from ._keys import key_of, known_key
 from ._native import Watch, ffi, lib, options_of, path_bytes, places_of, strings, text_of
 from ._progress import Progress
@@ -193,7 +193,10 @@ def sweep(
     count = whole_of(threads or 0, "threads") or len(os.sched_getaffinity(0))
     grid = grid_of(bead, texts, seed)
     _warn(grid, levitation)
-    refining = _refining(refine, refine_by, refine_step)
+    refining = _refining(whole_of(refine, "refine"), refine_by, number_of(refine_step, "refine_step"))
+    if not isinstance(shard, (tuple, list)) or len(shard) != 2:
+        raise BadInput("shard", f"{shard!r} is not (I, N), as (1, 4)")
+    shard = whole_of(shard[0], "shard"), whole_of(shard[1], "shard")
     if shard != (0, 0) and file is None:
         raise BadInput("shard", "a part of a sweep is for merging: give it a file")
     if file is not None:

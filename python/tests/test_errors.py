@@ -50,6 +50,20 @@ def test_no_sentence_has_a_name_of_c():
             assert callable(getattr(fs if kind == "festoon" else getattr(fs, kind), name))
 
 
+@pytest.mark.parametrize("call, words", [
+    (lambda: fs.Bead(magnet__parts=3), "magnet.parts: it must be a list of dictionaries, one a part"),
+    (lambda: fs.Bead(magnet__parts=[3]), "magnet.parts: "), (lambda: fs.Beads(beads=3), "beads: it must be a list of dictionaries"),
+    (lambda: fs.sweep(kappa=[1, 2], refine="x"), "refine must be a whole number"),
+    (lambda: fs.sweep(kappa=[1, 2], refine=1, refine_step="x"), "refine_step must be a number, not 'x'"),
+    (lambda: fs.sweep(kappa=[1, 2], shard=3), "shard: 3 is not"), (lambda: fs.Bead().rhs("a"), "rhs: 'a' is no array of numbers"),
+    (lambda: fs.Bead().field(["a"], 1), "field: "), (lambda: fs.Bead().branch(omega=(0.2, 0.3), step="x"), "step must be a number"),
+    (lambda: fs.merge([], "all.db"), "merge: there are no databases")])
+def test_wrong_arguments_are_named(call, words):
+    with pytest.raises((fs.BadInput, TypeError)) as caught:
+        call()
+    assert str(caught.value).startswith(words)
+
+
 def test_arguments_have_their_names():
     for call, where in (
         (lambda: fs.Bead().flow(rtol=9), "flow"),
