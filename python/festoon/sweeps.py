@@ -246,8 +246,9 @@ class Sweep(Tabled, SweepNumbers):
 
     @property
     def never_slips(self) -> Any:
-        """Dry friction: 1 where the contact stuck all the time of the means, 0, or -1: other laws."""
-        return lent(self._rows["result"]["never_slips"][self._points])
+        """Dry friction: 1 where the contact stuck all the time of the means, or 0; NaN: other laws."""
+        slips = self._rows["result"]["never_slips"][self._points]
+        return lent(np.where(slips < 0, np.nan, slips))
 
     @property
     def final_state(self) -> Any:
@@ -354,8 +355,7 @@ class Sweep(Tabled, SweepNumbers):
         known, docs = ({name: row[i] for name, row in RESULTS.items()} for i in (0, 1))
         result = self._rows["result"]
         values: Dict[str, Any] = {"point": self._points, "status": self.status, "carried": self._carried[self._points]}
-        values.update((name, getattr(self, name)) for name in ("regime", "symmetry", "reason", "dynamics"))
-        values["never_slips"] = np.where(self.never_slips < 0, np.nan, self.never_slips)
+        values.update((name, getattr(self, name)) for name in ("regime", "symmetry", "reason", "dynamics", "never_slips"))
         values.update((name, self._array(name)) for name in RESULTS)
         values.update({"returns": result["returns"][self._points], "rhs_calls": self.rhs_calls,
                        "steps_accepted": result["accepted"][self._points], "steps_rejected": result["rejected"][self._points]})
