@@ -213,6 +213,16 @@ static double find_end(const search *s, size_t from)
     return end;
 }
 
+/* Where outcomes alternate one by one in the first runs, from the run `at` on: the last that differs from its neighbour. */
+static double find_far(const search *s, size_t at, int upwards, int (*alike)(fst_regime))
+{
+    const size_t step = upwards ? 1 : (size_t)-1; /* below the lowest run it is beyond all of them */
+    while (at + step < s->count && s->all[at + step].regime != FST_REGIME_UNDECIDED &&
+           alike(s->all[at].regime) != alike(s->all[at + step].regime))
+        at += step;
+    return s->all[at].value;
+}
+
 /* The middle of a border and half its width.  Where outcomes alternate, runs of the one side that were met between this border
  * and `far`, where the other side began in the first runs, belong to the error. */
 static void put_border(const search *s, const border *b, int (*alike)(fst_regime), double far, double *value,
@@ -302,6 +312,8 @@ static fst_status find_borders(search *s, double tolerance, fst_critical *c, fst
     border parting = find_parting(s), critical = find_critical(s);
     const double fails = critical.found ? s->all[critical.low].value : NAN;
     const double parts = parting.found ? s->all[parting.high].value : NAN;
+    const double low_end = critical.found ? find_far(s, critical.low, 0, counter_rotates) : NAN;
+    const double high_end = parting.found ? find_far(s, parting.high, 1, follows) : NAN;
     fst_status status = enclose(s, find_critical, tolerance, error);
     if (status == FST_OK)
         status = enclose(s, find_parting, tolerance, error);
@@ -323,6 +335,10 @@ static fst_status find_borders(search *s, double tolerance, fst_critical *c, fst
     }
     if (c->found && s->params->friction_law != FST_FRICTION_COULOMB)
         status = sharpen(s, c, error);
+    if (c->found && c->special < 0 && low_end != fails)
+        c->error = fmax(c->error, c->value - low_end);
+    if (parting.found && high_end != parts)
+        c->parting_error = fmax(c->parting_error, high_end - c->parting);
     if (c->found && parting.found && parting.high == critical.high) { /* one border */
         c->parting = c->value;
         c->parting_error = c->error;

@@ -4,6 +4,7 @@ tests: sweep/critical.c
 labels: numbers"""
 
 import json
+import tempfile
 import unittest
 
 from sweep_tools import festoon
@@ -27,6 +28,20 @@ class Critical(unittest.TestCase):
                 self.assertIn(stretch["regime"], ("counter-rotating", "undecided"))
             if stretch["regime"] == "counter-rotating" and stretch["from"] < found["value"]:
                 self.assertGreaterEqual(stretch["from"], found["value"] - found["error"] * (1 + 1e-9))
+
+    def test_the_first_runs_that_alternate_belong_to_the_error(self):
+        """At 10.75 Hz the bead circles against the magnet, at 10.5 Hz and 11 Hz it is thrown out."""
+        scene = tempfile.NamedTemporaryFile("w", suffix=".yaml")
+        self.addCleanup(scene.close)
+        scene.write("bead: {radius: 3 mm, density: 7.5 g/cm^3}\nmodel: {kappa: 1.04}\n")
+        scene.flush()
+        status, out, err = festoon("critical", scene.name, "--set", "friction.law=coulomb", "--set", "friction.mu=0.1", "--set", "run.rtol=1e-8",
+                                   "--over", "drive.frequency=10.25Hz:12.5Hz:10", "--tolerance", "0.02", "--json")
+        self.assertEqual(status, 0, err)
+        found = json.loads(out)
+        outcomes = [(row["regime"], row["from"]) for row in found["stretches"]]
+        self.assertEqual(outcomes[:3], [("ejected", 10.25), ("counter-rotating", 10.75), ("ejected", 11.0)])
+        self.assertAlmostEqual(found["value"] - found["error"], 10.5, delta=1e-12)
 
 
 if __name__ == "__main__":
