@@ -351,9 +351,9 @@ typedef struct fst_part_shape {
 FST_API fst_part_shape fst_part_seen(const fst_magnet_part *part);
 
 /* Whether the bead's mass and radius contradict any material: the density is outside 1000 to 23000 kg/m^3, or
- * the radius was changed while mass and magnetic strength (kappa) are those of the default bead.  Returns 0 if
- * they do not; otherwise a sentence that says so is left in `sentence`.  A run is possible all the same.  In a
- * scaled scene, with model.eps, the radius plays no part and 0 is returned. */
+ * the radius was changed while nobody gave mass or magnetic strength (kappa); or a paramagnetic bead has a = 0.
+ * Returns 0 if they do not; otherwise a sentence that says so is left in `sentence`.  A run is possible all the
+ * same.  In a scaled scene, with model.eps, the radius plays no part. */
 FST_API int fst_bead_contradiction(const fst_params *params, char *sentence, size_t size);
 
 /* Whether two parts of a magnet are in one place, or a hole, a part of the opposite magnetisation within another one,

@@ -18,13 +18,11 @@ static double density_of(const fst_params *params)
     return fst_bead_mass(params) / (4.0 / 3.0 * FST_PI * radius * radius * radius);
 }
 
-/* Mass and radius enter kappa = mu B0/(m R^2 gamma^2) too, and the unit of a and b: a strength that is the
- * default's belongs to the default's bead. */
-static int strength_is_default(const fst_params *params, const fst_params *usual)
+/* Mass and radius enter kappa = mu B0/(m R^2 gamma^2) too: a strength that nobody gave belongs to the default's bead. */
+static int strength_is_default(const fst_params *params)
 {
-    if (params->bead_material == FST_MATERIAL_PARAMAGNETIC)
-        return 1;
-    return !fst_kappa_follows(params) && params->model_kappa == usual->model_kappa;
+    return params->bead_material != FST_MATERIAL_PARAMAGNETIC && !fst_kappa_follows(params) &&
+           !fst_kappa_given(params);
 }
 
 int fst_bead_contradiction(const fst_params *params, char *sentence, size_t size)
@@ -35,6 +33,8 @@ int fst_bead_contradiction(const fst_params *params, char *sentence, size_t size
     const double density = density_of(params);
     if (size > 0)
         sentence[0] = '\0';
+    if (params->bead_material == FST_MATERIAL_PARAMAGNETIC && params->bead_a == 0.0)
+        return snprintf(sentence, size, "bead.a is 0: the bead feels no magnet");
     if (!isnan(params->model_eps)) /* a scaled bead, whose radius in metres plays no part */
         return 0;
     if (!(density >= LIGHTEST && density <= HEAVIEST))
@@ -42,7 +42,7 @@ int fst_bead_contradiction(const fst_params *params, char *sentence, size_t size
                         "the bead's mass (%.4g kg) and radius (%.4g m) make a density of %.0f kg/m^3, which no "
                         "material has (%g to %g): give bead.mass and bead.radius that belong together",
                         fst_bead_mass(params), params->bead_radius, density, LIGHTEST, HEAVIEST);
-    if (params->bead_radius == usual.bead_radius || !strength_is_default(params, &usual))
+    if (params->bead_radius == usual.bead_radius || !strength_is_default(params))
         return 0;
     if (!isnan(params->bead_density))
         return snprintf(

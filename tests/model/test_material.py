@@ -20,10 +20,9 @@ def changed(*settings):
 
 class Material(unittest.TestCase):
     IMPOSSIBLE = [("bead.radius=5mm",), ("bead.radius=1.5mm",), ("bead.mass=50mg",), ("bead.mass=1.6g",)]
-    FORGOTTEN = [("bead.radius=2mm",), ("bead.radius=2.6mm",), ("bead.radius=3mm", "bead.material=paramagnetic"),
-                 ("bead.radius=3mm", "bead.density=8000")]
-    POSSIBLE = [(), ("bead.radius=3mm", "bead.mass=0.86g"), ("bead.radius=2mm", "model.kappa=2.3"), ("model.eps=0.2",),
-                ("bead.radius=3mm", "bead.density=8000", "model.kappa=1.04"), ("bead.density=8000",),
+    FORGOTTEN = [("bead.radius=2mm",), ("bead.radius=2.6mm",), ("bead.radius=3mm", "bead.density=8000")]
+    POSSIBLE = [(), ("bead.radius=3mm", "bead.mass=0.86g"), ("bead.radius=2mm", "model.kappa=2.3"), ("bead.radius=2mm", "model.kappa=1.5"),
+                ("model.eps=0.2",), ("bead.radius=3mm", "bead.density=8000", "model.kappa=1.04"), ("bead.density=8000",),
                 ("bead.radius=2.2mm", "bead.moment=0.05", "magnet.b0=6mT"), ("bead.mass=0.4g",)]
 
     def warnings(self, settings):
@@ -46,6 +45,9 @@ class Material(unittest.TestCase):
             self.assertRegex("".join(self.warnings(settings)), r"density of \d+ kg/m\^3, which no material has", settings)
         for settings in self.FORGOTTEN:
             self.assertRegex("".join(self.warnings(settings)), "still (those|that) of the default", settings)
+        unmoved = ("bead.radius=3mm", "bead.material=paramagnetic")
+        self.assertEqual(self.warnings(unmoved), ["bead.a is 0: the bead feels no magnet"])
+        self.assertEqual(self.warnings((*unmoved, "bead.a=0.1")), [])
         for settings in self.POSSIBLE:
             self.assertEqual(self.warnings(settings), [], settings)
 
@@ -64,7 +66,8 @@ class Material(unittest.TestCase):
                                 (["--over", "bead.radius=2.5mm,3mm,2.5mm"], 1),
                                 (["--over", "bead.radius=3mm,4mm", "--over", "bead.density=7000,8000"], 1),
                                 (["--over", "drive.frequency=9:10:300", "--over", "bead.radius=2.5mm,2.6mm,2.5mm"], 1),
-                                (["--over", "bead.radius=2mm,3mm", "--set", "model.kappa=2"], 0)):
+                                (["--over", "bead.radius=2mm,3mm", "--set", "model.kappa=2"], 0),
+                                (["--over", "model.kappa=1,1.5,2", "--set", "bead.radius=2mm"], 0)):
                 path = Path(folder) / f"{len(list(Path(folder).iterdir()))}.db"
                 status, out, err = festoon("sweep", *axes, *SHORT, "-o", str(path))
                 self.assertEqual((status, err.count("warning")), (0, count), (axes, err))
