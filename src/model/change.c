@@ -4,7 +4,9 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "model/forms.h"
 #include "model/model.h"
+#include "model/params.h"
 
 /* Without what the law in effect does not read. */
 static fst_world_double acting(const fst_model *model)
@@ -56,14 +58,26 @@ static int same_units(const fst_groups *a, const fst_groups *b)
            (a->field_unit == b->field_unit || (isnan(a->field_unit) && isnan(b->field_unit)));
 }
 
+/* Whether the field's unit says nothing else: magnet and bead are known in tesla.  Numbers scaled by it differ in rounding. */
+static int field_unit_is_free(const fst_params *p)
+{
+    return fst_magnet_in_tesla(p) && fst_kappa_follows(p) && p->bead_material == FST_MATERIAL_HARD;
+}
+
 fst_scene_change fst_params_changes(const fst_params *one, const fst_params *other)
 {
+    fst_params alike = *other;
     fst_model *models[2] = {NULL, NULL};
     fst_scene_change change = FST_CHANGE_MOTION;
+    if (field_unit_is_free(one) && field_unit_is_free(other))
+        alike.magnet_b0 = one->magnet_b0;
     if (one->bead_count == 0 && other->bead_count == 0 && runs_alike(one, other) &&
-        fst_model_new(one, &models[0], NULL) == FST_OK && fst_model_new(other, &models[1], NULL) == FST_OK &&
+        fst_model_new(one, &models[0], NULL) == FST_OK && fst_model_new(&alike, &models[1], NULL) == FST_OK &&
         moves_alike(models[0], models[1]) && starts_alike(models[0], models[1]))
-        change = same_units(&models[0]->groups, &models[1]->groups) ? FST_CHANGE_NOTHING : FST_CHANGE_UNITS;
+        change = !same_units(&models[0]->groups, &models[1]->groups) ||
+                         (field_unit_is_free(one) && fst_field_unit(one) != fst_field_unit(other))
+                     ? FST_CHANGE_UNITS
+                     : FST_CHANGE_NOTHING;
     fst_model_free(models[0]);
     fst_model_free(models[1]);
     return change;
