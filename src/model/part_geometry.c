@@ -232,6 +232,26 @@ static int cancel(const fst_magnet_part *one, const fst_magnet_part *other)
     return hypot(hypot(m[0] + n[0], m[1] + n[1]), m[2] + n[2]) < 1e-6 * hypot(hypot(m[0], m[1]), m[2]);
 }
 
+/* Whether the parts in which one is a hole contain its surface together, which is seen on rims.  Between them it may
+ * still reach beyond: nothing is said of what is not sure. */
+static int lies_in_bodies(const fst_params *p, const fst_magnet_part *hole)
+{
+    const double slack = 5e-4 * thickness(hole);
+    double axes[5][3], points[FST_OUTLINE_MOST][3];
+    int within = 1;
+    fst_set_axes_double(hole->rotation, axes);
+    memcpy(axes[3], axes[0], 2 * sizeof axes[0]);
+    for (int turn = 0; turn < (hole->kind == FST_PART_SPHERE ? 3 : 1);
+         ++turn) /* a sphere's circle, about each axis */
+        for (int i = rim_points(hole, &axes[turn], points) - 1; i >= 0 && within; --i) {
+            within = 0;
+            for (int b = 0; b < p->magnet_part_count && !within; ++b)
+                within = fst_part_distance(&p->magnet_parts[b], points[i]) < slack &&
+                         cancel(hole, &p->magnet_parts[b]);
+        }
+    return within;
+}
+
 /* Whether a part lies in a hole, which others made for it in the magnet's part `of`, or is itself such a hole. */
 static int lies_in_hole(const fst_params *p, int part, int of)
 {
@@ -248,7 +268,7 @@ static int lies_in_hole(const fst_params *p, int part, int of)
 static int may_overlap(const fst_params *p, int a, int b)
 {
     const fst_magnet_part *one = &p->magnet_parts[a], *other = &p->magnet_parts[b];
-    if (cancel(one, other) && (lies_within(one, other) || lies_within(other, one)))
+    if (cancel(one, other) && (lies_in_bodies(p, one) || lies_in_bodies(p, other)))
         return 1;
     if (lies_in_hole(p, a, b) || lies_in_hole(p, b, a))
         return 1;

@@ -568,7 +568,7 @@ static void holes_and_what_fills_them(void **state)
     static const struct {
         struct {
             fst_part_kind kind;
-            double size[3], remanence;
+            double size[4], remanence; /* size[3]: its place along x */
         } parts[3];
         int count;
         const char *told;
@@ -599,6 +599,21 @@ static void holes_and_what_fills_them(void **state)
           {FST_PART_SPHERE, {0.009}, 0.7}},
          3,
          "[0] and magnet.parts[2] overlap"},
+        {{{FST_PART_CUBOID, {0.02, 0.02, 0.01, -0.01}, 1.0},
+          {FST_PART_CUBOID, {0.02, 0.02, 0.01, 0.01}, 1.0},
+          {FST_PART_CYLINDER, {0.008, 0.01}, -1.0}},
+         3,
+         NULL},
+        {{{FST_PART_CUBOID, {0.02, 0.02, 0.01, -0.01}, 1.0},
+          {FST_PART_CUBOID, {0.02, 0.02, 0.01, 0.01}, 1.0},
+          {FST_PART_SPHERE, {0.011}, -1.0}},
+         3,
+         "make a hole that reaches beyond"},
+        {{{FST_PART_CUBOID, {0.02, 0.02, 0.01, -0.01}, 1.0},
+          {FST_PART_CUBOID, {0.02, 0.02, 0.01, 0.01}, 0.9},
+          {FST_PART_CYLINDER, {0.008, 0.01}, -1.0}},
+         3,
+         "[0] and magnet.parts[2] make a hole that reaches beyond"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
         fst_params params = fst_default_params();
@@ -612,6 +627,7 @@ static void holes_and_what_fills_them(void **state)
             part->rotation[3] = 1.0;
             memcpy(part->size, cases[k].parts[i].size, sizeof part->size);
             part->remanence[2] = cases[k].parts[i].remanence;
+            part->centre[0] = cases[k].parts[i].size[3];
         }
         const int found = fst_parts_contradiction(&params, sentence, sizeof sentence);
         assert_int_equal(found != 0, cases[k].told != NULL);
