@@ -187,13 +187,14 @@ static fst_status export_text(exporter *e, fst_export_format format, const char 
 
 /* ------------------------------------------------------------------ HDF5 */
 
+#define STATUS_WORD(name, text) "|" text
 /* The list of texts whose index stands in HDF5 for a column of texts; NULL where the column is left out. */
 static const char *codes_of(const char *column)
 {
     static const char *const lists[][2] = {{"regime", FST_WORDS(FST_REGIMES)},
                                            {"symmetry", FST_WORDS(FST_SYMMETRIES)},
                                            {"dynamics", FST_WORDS(FST_DYNAMICS)},
-                                           {"status", "done"}};
+                                           {"status", &(FST_STATUS_LIST(STATUS_WORD))[1]}};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; ++i)
         if (strcmp(lists[i][0], column) == 0)
             return lists[i][1];
