@@ -37,10 +37,11 @@ static fst_status tell_of_missing(const char *path, fst_error *error)
     fst_sweep_table table;
     const fst_status status = fst_sweep_read(path, NULL, 0, &table, error);
     if (status == FST_OK && !table.refine && table.rows < table.wanted)
-        (void)fprintf(stderr, "festoon: %s: %lld of %lld points have a row%s\n", shown(path, name),
+        (void)fprintf(stderr, "festoon: %s: %lld of %lld points have a row%s%s\n", shown(path, name),
                       (long long)table.rows, (long long)table.wanted,
                       table.at_work ? " so far: a sweep is at work on it"
-                                    : ", because the sweep was interrupted; the same command goes on");
+                                    : "; the command of the sweep computes the others with -o ",
+                      table.at_work ? "" : name);
     if (status == FST_OK)
         fst_sweep_table_free(&table);
     return status;

@@ -122,6 +122,10 @@ static fst_status fill(const char *file, const char *name, const fst_sweep_ident
         status = fst_database_fail(database, name, error);
     if (status == FST_OK)
         status = write_all(database, name, identity, filling, error);
+    if (status == FST_IO && (sqlite3_errcode(database) & 0xff) == SQLITE_FULL)
+        status = fst_fail(error, FST_IO, name,
+                          "the disk is full, and nothing of the new database is left: make room and give the "
+                          "same command again");
     if (sqlite3_close(database) != SQLITE_OK && status == FST_OK)
         status = fst_fail(error, FST_IO, name, "closing the new database failed");
     return status;

@@ -79,7 +79,7 @@ class ExportKeys(Case):
         status, out, err = festoon("export", path, "--csv", "--quantity", "mean_r")
         head, *rows = csv.reader(io.StringIO(out))
         self.assertEqual((status, head), (0, ["drive.frequency [Hz]", "mean_r [l]", "status"]))
-        self.assertIn("3 of 8 points have a row, because the sweep was interrupted", err)
+        self.assertIn(f"3 of 8 points have a row; the command of the sweep computes the others with -o {path}\n", err)
         with open(path, "r+b") as file:  # the lock of a sweep at work, sweep/lock.c
             fcntl.fcntl(file, fcntl.F_OFD_SETLK, struct.pack("hhqqi4x", fcntl.F_WRLCK, os.SEEK_SET, 1 << 48, 1, 0))
             self.assertIn("3 of 8 points have a row so far: a sweep is at work on it\n",

@@ -85,11 +85,23 @@ class Merging(Shards):
         self.assertIn("without --shard, computes them", err)
         _, out, err = festoon("export", self.path("all.db"), "--csv", "--quantity", "regime")
         self.assertEqual((out.count(",done\n"), out.count(",missing\n")), (12, 6))
-        self.assertIn("12 of 18 points", err)
+        self.assertIn("12 of 18 points have a row; the command of the sweep computes the others with -o ", err)  # nothing was interrupted
         self.good("merge", self.path("all.db"), self.shard(2, 3), "-o", self.path("late.db"))
         self.assertEqual(json.loads(self.good("sweep", *SMALL, "--json", "-o", self.path("all.db")))["added"], 6)
         for name in ("all.db", "late.db"):
             self.assertEqual(self.rows(name), expected)
+
+    def test_no_room(self):
+        mount, names = self.path("small"), [self.shard(i, 2) for i in (1, 2)]
+        os.mkdir(mount)
+        if os.getuid() != 0 or subprocess.run(["mount", "-t", "tmpfs", "-o", "size=16k", "none", mount], stderr=subprocess.DEVNULL).returncode != 0:
+            self.skipTest("a small file system needs root")
+        try:
+            status, _, err = festoon("merge", *names, "-o", os.path.join(mount, "all.db"))
+            self.assertEqual((status, os.listdir(mount)), (1, []), err)
+            self.assertIn("the disk is full, and nothing of the new database is left", err)
+        finally:
+            subprocess.run(["umount", mount], check=True)
 
     def test_shards_may_overlap(self):
         expected = self.whole()
