@@ -163,7 +163,7 @@ static void print_branch(FILE *out, const fst_branch *b)
     char unit[16];
     (void)unit_behind(b->key, unit);
     if (b->second_key[0]) {
-        (void)fprintf(out, "%d curves of %s points over %s and %s\n", b->branches,
+        (void)fprintf(out, "%d curve%s of %s points over %s and %s\n", b->branches, b->branches == 1 ? "" : "s",
                       fst_special_name(b->followed), b->key, b->second_key);
         for (int curve = 0; curve < b->branches; ++curve)
             print_curve(out, b, curve);
@@ -173,9 +173,9 @@ static void print_branch(FILE *out, const fst_branch *b)
                           unsigned_zero(b->ends[i].value, ALL_DIGITS), unit, b->ends[i].reason);
         return;
     }
-    (void)fprintf(out, "%d branches, %zu points over %s = %.10g to %.10g%s\n\nspecial points\n", b->branches,
-                  b->point_count, b->key, unsigned_zero(b->from, ALL_DIGITS), unsigned_zero(b->to, ALL_DIGITS),
-                  unit);
+    (void)fprintf(out, "%d %s, %zu points over %s = %.10g to %.10g%s\n\nspecial points\n", b->branches,
+                  b->branches == 1 ? "branch" : "branches", b->point_count, b->key,
+                  unsigned_zero(b->from, ALL_DIGITS), unsigned_zero(b->to, ALL_DIGITS), unit);
     for (size_t i = 0; i < b->special_count; ++i) {
         const fst_special *s = &b->specials[i];
         (void)fprintf(out, "  %-16s %s = %.12g%s", fst_special_name(s->type), b->key,

@@ -87,7 +87,13 @@ fst_status world_strobe_set(world_strobe *s, const fst_params *params, const fst
     s->model = NULL;
     s->progress = options->progress;
     s->rtol = fmin(params->run_rtol, 1e-12);
-    fst_status status = fst_key_of_surroundings(params) ? FST_OK : fst_check_no_world(params, error);
+    const char *key = fst_key_of_surroundings(params) ? NULL : fst_key_of_world(params);
+    fst_status status =
+        !key ? FST_OK
+             : fst_fail(error, FST_BAD_INPUT, key,
+                        "%s asks for a bead in three dimensions, which kind driven does not follow in "
+                        "the magnet's frame: set world.frame to laboratory",
+                        key);
     if (status == FST_OK && !s->lapack)
         status = fst_lapack_load(&s->lapack, error);
     if (status == FST_OK)

@@ -162,6 +162,8 @@ class Worlds(Case):
         words = ("--set", "world.frame=laboratory", "--set", "run.discard=1", "--set", "drive.frequency=164", "--set",
                  "start.position[2]=32 mm")
         path, figure = self.path("driven.json"), self.path("driven.svg")
+        self.assertIn("kind driven does not follow in the magnet's frame: set world.frame to laboratory",
+                      self.refused("branch", self.scene("levitation"), "--kind", "driven", "--over", "drive.frequency=161:165"))
         told = json.loads(self.good("branch", self.scene("levitation"), *words, "--kind", "driven", "--over",
                                     "drive.frequency=161:165", "-o", path, "--json"))
         self.assertEqual([s["type"] for s in told["specials"]], ["fold"])
