@@ -89,7 +89,7 @@ static int is_main(const fst_chart_curve *curve)
 static int lift_signs(fst_chart *all, fst_chart_curve *curve, int level, const char *name)
 {
     double *y = fst_chart_keep(all, (curve->count + 1) * sizeof *y);
-    char words[192];
+    char words[384];
     for (size_t i = 0; y && i < curve->count; ++i)
         y[i] = curve->y[i] + 0.04 * level;
     curve->y = y;
@@ -157,7 +157,7 @@ static int take_signs(fst_chart *all, fst_chart_panel *panels, int *panel_count,
 /* The name of a chart in the key. */
 static const char *own_name(fst_chart *all, const char *name)
 {
-    char words[128];
+    char words[384];
     fst_plain_words(name, words, sizeof words);
     return fst_chart_text(all, words);
 }

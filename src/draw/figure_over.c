@@ -26,6 +26,7 @@ typedef struct source {
     fst_params *scene; /* NULL: the file does not say */
     const char *shown[FST_AXIS_LIMIT];
     int shown_count; /* keys that the figure shows anyway */
+    fst_carry carry; /* of a sweep */
 } source;
 
 static fst_status no_memory(fst_error *error)
@@ -82,10 +83,12 @@ static fst_sweep_figure figure_of(const fst_grid *grid, wanted *w)
 
 static fst_status take_sweep(source *s, wanted *w, fst_error *error)
 {
-    fst_grid *grid;
-    fst_status status = fst_sweep_read_grid(s->path, &grid, error);
+    fst_sweep_table table;
+    fst_status status = fst_sweep_read(s->path, NULL, 0, &table, error);
     if (status != FST_OK)
         return status;
+    const fst_grid *grid = table.grid;
+    s->carry = table.carry;
     const fst_sweep_figure figure = figure_of(grid, w);
     for (int i = 0; i < fst_grid_axis_count(grid); ++i)
         if (fst_grid_axis_points(grid, i) > 1)
@@ -95,7 +98,7 @@ static fst_status take_sweep(source *s, wanted *w, fst_error *error)
         status = no_memory(error);
     else if (fst_grid_params(grid, 0, s->scene, NULL) != FST_OK)
         *s->scene = *fst_grid_base(grid);
-    fst_grid_free(grid);
+    fst_sweep_table_free(&table);
     return status == FST_OK ? fst_chart_of_sweep(s->path, &figure, 1, &s->chart, error) : status;
 }
 
@@ -146,6 +149,12 @@ static void name_files(const source *sources, int count, char (*names)[FST_CAPTI
             shown[shown_count++] = sources[i].shown[k];
     }
     fst_caption_of_files(scenes, paths, count, shown, shown_count, names, same, size);
+    for (int i = 0; i < count; ++i) { /* runs that were begun where their neighbours ended */
+        const size_t used = strlen(names[i]);
+        if (sources[i].carry != FST_CARRY_NO)
+            (void)snprintf(names[i] + used, FST_CAPTION_SIZE - used, ", %s",
+                           sources[i].carry == FST_CARRY_UP ? "upwards" : "downwards");
+    }
 }
 
 /* ------------------------------------------------------------------ the figure */

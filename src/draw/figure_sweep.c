@@ -260,6 +260,7 @@ static fst_status family_of(const shown_sweep *s, fst_chart **chart, fst_error *
     const fst_sweep_axis *one = &s->slice.axes[fewer];
     fst_sweep_slice slice = s->slice;
     slice.varied = 1;
+    slice.whole = &s->slice;
     slice.axes[0] = s->slice.axes[1 - fewer];
     if (one->count > FST_CHARTS_OVER)
         return fst_fail(error, FST_BAD_INPUT, "fst_sweep_figure.kind",

@@ -281,7 +281,7 @@ static fst_status fill(drawing *d, const fst_sweep_quantity *quantities, int cou
     if (!note_gaps(d, slice, count))
         return FST_NO_MEMORY;
     lay_abscissa(d, &slice->axes[0]);
-    fst_sweep_about(d->table, slice, d->about, sizeof d->about);
+    fst_sweep_about(d->table, slice->whole ? slice->whole : slice, d->about, sizeof d->about);
     size_t used = strlen(d->about);
     if (slice->words[0])
         used += (size_t)snprintf(d->about + used, sizeof d->about - used, "; at %s", slice->words);

@@ -130,10 +130,29 @@ static int key_columns(const fst_legend *legend, double *width)
     return columns;
 }
 
+/* The lines of an entry; it has several where it has no room in a column as wide as the figure. */
+static int entry_lines(const fst_legend_entry *entry, char lines[MOST_LINES][LINE_SIZE])
+{
+    const double room = FST_FIGURE_WIDTH - 2.0 * MARGIN - SAMPLE - 6.0;
+    return break_lines(entry->words, (int)(room / KEY_LETTER), 0, lines);
+}
+
+/* The lines of the entries above one, in one column. */
+static int lines_above(const fst_legend *legend, int entry)
+{
+    char lines[MOST_LINES][LINE_SIZE];
+    int count = 0;
+    for (int i = 0; i < entry; ++i)
+        count += entry_lines(&legend->entries[i], lines);
+    return count;
+}
+
 static int key_rows(const fst_legend *legend)
 {
     double width;
     const int columns = key_columns(legend, &width);
+    if (columns == 1)
+        return lines_above(legend, legend->count);
     return columns > 0 ? (legend->count + columns - 1) / columns : 0;
 }
 
@@ -232,8 +251,9 @@ static void entry_place(const fst_legend *legend, int i, double *x, double *y)
 {
     double width;
     const int columns = key_columns(legend, &width), rows = key_rows(legend);
-    *x = MARGIN + width * (i / rows) + (columns == 1 ? 6.0 : 0.0);
-    *y = 0.5 * MARGIN + KEY_LINE * (rows - i % rows - 0.5);
+    const int column = columns == 1 ? 0 : i / rows, row = columns == 1 ? lines_above(legend, i) : i % rows;
+    *x = MARGIN + width * column + (columns == 1 ? 6.0 : 0.0);
+    *y = 0.5 * MARGIN + KEY_LINE * (rows - row - 0.5);
 }
 
 static void write_samples(fst_figure_file *figure, const fst_legend *legend)
@@ -279,12 +299,16 @@ void fst_legend_write(fst_figure_file *figure, const fst_legend *legend, int hei
     (void)fprintf(script, "set xrange [0:%d]\nset yrange [0:%d]\n", FST_FIGURE_WIDTH, height);
     write_title(figure, legend, height);
     for (int i = 0; i < legend->count; ++i) {
+        char lines[MOST_LINES][LINE_SIZE];
         double x, y;
         entry_place(legend, i, &x, &y);
-        (void)fputs("set label ", script);
-        fst_figure_quote(figure, legend->entries[i].words);
-        (void)fprintf(script, " at %g,%g left front font ',12'\n",
-                      x + (legend->entries[i].sample == FST_SAMPLE_NONE ? 0 : SAMPLE), y);
+        const int count = entry_lines(&legend->entries[i], lines);
+        for (int k = 0; k < count; ++k) {
+            (void)fputs("set label ", script);
+            fst_figure_quote(figure, lines[k]);
+            (void)fprintf(script, " at %g,%g left front font ',12'\n",
+                          x + (legend->entries[i].sample == FST_SAMPLE_NONE ? 0 : SAMPLE), y - KEY_LINE * k);
+        }
     }
     write_samples(figure, legend);
     (void)fputs("unset multiplot\n", script);

@@ -20,7 +20,7 @@ typedef struct fst_legend_entry {
     fst_sample_kind sample;
     double length;   /* of an arrow, in pixels */
     char style[96];  /* gnuplot's words for it, "lc rgb '#0072b2' lw 2" */
-    char words[128]; /* an underscore lowers the next letter */
+    char words[384]; /* an underscore lowers the next letter */
 } fst_legend_entry;
 
 typedef struct fst_legend {

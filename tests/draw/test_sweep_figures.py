@@ -303,6 +303,7 @@ class Slices(Figures):
             for cell in cells:
                 self.assertAlmostEqual(cell[6], wanted[round(cell[1], 6), round(cell[0], 6)], 4)
             script, blocks = self.plot("t.db", "--quantity", "mean_r", "--only", f"bead.radius={radius}mm")
+            self.assertRegex(words(script), r"\b8 runs of \d+ turns of the magnet")  # of all curves
             for kappa, curve in zip((1, 1.5), self.curves(blocks, 1), strict=True):
                 self.assertIn(f"model.kappa {kappa:g}", words(script))
                 for x, y in curve:
@@ -374,6 +375,22 @@ class Over(Figures):
         line = re.findall(r"set label '(.*?)' at [^\n]*textcolor rgb '#555555'", script)
         self.assertEqual(line, ["model.kappa 1.25"])
         self.assertEqual(re.findall(r"set label '(friction.*?)' at", script), ["friction.law viscous", "friction.law rolling"])
+
+    def test_a_long_name_takes_several_lines(self):
+        more = ("model.kappa=1.2", "friction.law=none", "bead.radius=2mm", "bead.inertia=0.5", "magnet.depth=17mm", "magnet.width=41mm")
+        axis = ("--over", "drive.frequency=9,10", "-o")
+        self.good("sweep", *SHORT, *axis, self.path("a.db"))
+        self.good("sweep", *SHORT, *[w for text in more for w in ("--set", text)], *axis, self.path("b.db"))
+        script, _, _ = self.over("a.db", "b.db", "--quantity", "mean_r")
+        name = ("bead.radius 2 mm, bead.inertia 0.5, magnet.width 41 mm, magnet.depth 17 mm, friction.law none, model.kappa 1.2")
+        self.assertIn(name, words(script))
+        self.assertLess(max(map(len, re.findall(r"set label '(.*?)' at [0-9.]+,[0-9.]+ left front", script))), 80)
+
+    def test_carried_sweeps_name_their_way(self):
+        for way in ("up", "down"):
+            self.good("sweep", *SHORT, "--over", "drive.frequency=9,10", "--carry", way, "-o", self.path(f"c-{way}.db"))
+        script, _, _ = self.over("c-up.db", "c-down.db", "--quantity", "mean_r")
+        self.assertIn("c-up.db, upwards c-down.db, downwards", words(script))
 
     def test_trajectories(self):
         for name, kappa in (("a.csv", "1.2"), ("b.csv", "1.8")):
