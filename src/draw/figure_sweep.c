@@ -208,14 +208,9 @@ static fst_status choose_quantities(const fst_grid *grid, const fst_sweep_figure
         return fst_fail(error, FST_BAD_INPUT, "fst_sweep_figure.keys", "a map shows one key, not %d", s->count);
     if (s->count == 0)
         s->count = choose_keys(grid, s->is_map, keys);
-    fst_status status = FST_OK;
-    for (int i = 0; i < s->count && status == FST_OK; ++i) {
-        status = fst_sweep_quantity_of(grid, keys[i], units, &s->quantities[i], error);
-        if (status == FST_BAD_INPUT &&
-            options->units == FST_SHOWN_AS_GIVEN) /* the units of the axis cannot show it */
-            status = fst_sweep_quantity_of(grid, keys[i], FST_SHOWN_SCALED, &s->quantities[i], error);
-    }
-    return status;
+    for (int i = 0; i < s->count; ++i)
+        s->quantities[i] = fst_sweep_quantity_of(grid, keys[i], units);
+    return FST_OK;
 }
 
 static fst_status read_sweep(const char *path, const fst_sweep_figure *options, shown_sweep *s,
@@ -245,8 +240,9 @@ static fst_status read_sweep(const char *path, const fst_sweep_figure *options, 
     fst_grid_free(grid);
     if (status != FST_OK)
         return status;
-    return s->is_map ? fst_sweep_read_filled(path, keys, s->count, &s->table, error)
-                     : fst_sweep_read(path, keys, s->count + 1, &s->table, error);
+    status = s->is_map ? fst_sweep_read_filled(path, keys, s->count, &s->table, error)
+                       : fst_sweep_read(path, keys, s->count + 1, &s->table, error);
+    return status == FST_OK ? fst_sweep_convert(&s->table, &s->slice, s->quantities, s->count, error) : status;
 }
 
 /* ------------------------------------------------------------------ curves */

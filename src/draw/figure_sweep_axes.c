@@ -31,20 +31,25 @@ fst_shown_units fst_sweep_units(const fst_grid *grid)
     return fst_units_over(keys, count);
 }
 
-/* The parameters that are units themselves, or make one. */
+/* The parameters that are units of axes themselves. */
 static const struct {
     const char *key;
     size_t scale;
-} unit_keys[] = {
-    {"friction.gamma", offsetof(fst_scales, time)}, {"magnet.half_length", offsetof(fst_scales, length)},
-    {"bead.mass", offsetof(fst_scales, mass)},      {"magnet.b0", offsetof(fst_scales, field)},
-    {"bead.moment", offsetof(fst_scales, field)},   {"model.kappa", offsetof(fst_scales, field)}};
+} unit_keys[] = {{"friction.gamma", offsetof(fst_scales, time)},
+                 {"magnet.half_length", offsetof(fst_scales, length)}};
 enum { UNIT_KEYS = sizeof unit_keys / sizeof *unit_keys };
 
-/* The scales of the points; a scale that differs from point to point is NAN. */
+/* The scales of the first point, of which an axis of one value may make another than the base's. */
+static fst_scales first_scales(const fst_grid *grid)
+{
+    fst_params point;
+    return fst_scales_of(fst_grid_params(grid, 0, &point, NULL) == FST_OK ? &point : fst_grid_base(grid));
+}
+
+/* The scales of the points for their axes; a length or a time that differs from point to point is NAN. */
 static fst_scales scales_of(const fst_grid *grid)
 {
-    fst_scales scales = fst_scales_of(fst_grid_base(grid));
+    fst_scales scales = first_scales(grid);
     for (int i = 0; i < UNIT_KEYS; ++i)
         if (varies(grid, unit_keys[i].key))
             *(double *)((char *)&scales + unit_keys[i].scale) = NAN;
@@ -130,21 +135,31 @@ static void describe_points(const fst_grid *grid, char *text, size_t size)
     fst_caption(&point, shown, count, text, size);
 }
 
-/* The points of a slice, and how many of them have a row.  Random points have no slices. */
+/* How many points a slice has.  Random points have no slices: all are shown. */
+static int64_t slice_points(const fst_grid *grid, const fst_sweep_slice *slice)
+{
+    return !slice->words[0] ? fst_grid_points(grid)
+                            : slice->axes[0].count * (slice->varied > 1 ? slice->axes[1].count : 1);
+}
+
+/* The number of the i-th of them. */
+static int64_t slice_point(const fst_grid *grid, const fst_sweep_slice *slice, int64_t i)
+{
+    if (!slice->words[0])
+        return i;
+    const int64_t inner = slice->varied > 1 ? slice->axes[1].count : 1;
+    const int64_t stride = inner > 1 ? fst_grid_axis_stride(grid, slice->axes[1].index) : 0;
+    return slice->start + i / inner * fst_grid_axis_stride(grid, slice->axes[0].index) + i % inner * stride;
+}
+
+/* The points of a slice, and how many of them have a row. */
 static int64_t count_points(const fst_sweep_table *table, const fst_sweep_slice *slice, int64_t *rows)
 {
-    int64_t strides[2] = {0, 0}, counts[2] = {1, 1};
-    *rows = table->rows;
-    if (!slice->words[0])
-        return fst_grid_points(table->grid);
-    for (int i = 0; i < slice->varied; ++i) {
-        strides[i] = fst_grid_axis_stride(table->grid, slice->axes[i].index);
-        counts[i] = slice->axes[i].count;
-    }
-    *rows = 0;
-    for (int64_t i = 0; i < counts[0] * counts[1]; ++i)
-        *rows += table->computed[slice->start + i / counts[1] * strides[0] + i % counts[1] * strides[1]];
-    return counts[0] * counts[1];
+    const int64_t points = slice_points(table->grid, slice);
+    *rows = slice->words[0] ? 0 : table->rows;
+    for (int64_t i = 0; i < points && slice->words[0]; ++i)
+        *rows += table->computed[slice_point(table->grid, slice, i)];
+    return points;
 }
 
 /* " of 300 turns of the magnet", as long as all runs are. */
@@ -265,18 +280,39 @@ int fst_sweep_result_tics(const char *key, char *tics, size_t size)
     return count;
 }
 
-fst_status fst_sweep_quantity_of(const fst_grid *grid, const char *key, fst_shown_units units,
-                                 fst_sweep_quantity *quantity, fst_error *error)
+fst_sweep_quantity fst_sweep_quantity_of(const fst_grid *grid, const char *key, fst_shown_units units)
 {
-    const fst_scales scales = scales_of(grid), base = fst_scales_of(fst_grid_base(grid));
-    const char *unit = fst_sweep_key_unit(grid, key), *name, *base_name;
-    (void)fst_unit_shown(unit, units, &scales, &name);
-    (void)fst_unit_shown(unit, units, &base, &base_name);
-    const int field_only = strcmp(unit, "B0") == 0; /* it then stays in B0 */
-    const fst_quantity shown = fst_quantity_of_result(key, unit, units, &scales);
-    *quantity = (fst_sweep_quantity){.key = key, .factor = shown.factor};
-    memcpy(quantity->label, shown.label, sizeof quantity->label);
-    return check_scale(grid, key, field_only || strcmp(name, base_name) == 0, error);
+    const fst_scales scales = first_scales(grid);
+    const char *unit = fst_sweep_key_unit(grid, key), *name;
+    (void)fst_number_shown(key, unit, units, &scales, &name);
+    fst_sweep_quantity quantity = {
+        .key = key, .unit = unit, .units = name == unit ? FST_SHOWN_SCALED : units}; /* without counterpart */
+    memcpy(quantity.label, fst_quantity_of_result(key, unit, units, &scales).label, sizeof quantity.label);
+    return quantity;
+}
+
+fst_status fst_sweep_convert(const fst_sweep_table *table, const fst_sweep_slice *slice,
+                             const fst_sweep_quantity *quantities, int count, fst_error *error)
+{
+    const int64_t all = fst_grid_points(table->grid), points = slice_points(table->grid, slice);
+    int converted = 0;
+    for (int k = 0; k < count; ++k)
+        converted |= quantities[k].units != FST_SHOWN_SCALED;
+    for (int64_t i = 0; i < points && converted; ++i) {
+        const int64_t point = slice_point(table->grid, slice, i);
+        fst_params params;
+        const fst_status status = fst_grid_params(table->grid, point, &params, error);
+        if (status != FST_OK)
+            return status;
+        const fst_scales scales = fst_scales_of(&params);
+        for (int k = 0; k < count; ++k) {
+            const fst_sweep_quantity *q = &quantities[k];
+            const char *name;
+            const double factor = fst_number_shown(q->key, q->unit, q->units, &scales, &name);
+            table->values[k * all + point] *= q->units != FST_SHOWN_SCALED && name == q->unit ? NAN : factor;
+        }
+    }
+    return FST_OK;
 }
 
 fst_colour fst_regime_colour(int regime)

@@ -50,13 +50,17 @@ const char *fst_sweep_state_key(const fst_grid *grid);
 /* The colour of a regime in all figures. */
 fst_colour fst_regime_colour(int regime);
 
-/* A key of a run as the figure shows it: its values times `factor`, with the label "mean radius ⟨r⟩ (mm)". */
+/* A key of a run as the figure shows it: from its scaled unit in `units`, with the label "mean radius ⟨r⟩ (mm)". */
 typedef struct fst_sweep_quantity {
-    const char *key;
-    double factor;
+    const char *key, *unit;
+    fst_shown_units units; /* FST_SHOWN_SCALED where the unit has no counterpart in others */
     char label[128];
 } fst_sweep_quantity;
-fst_status fst_sweep_quantity_of(const fst_grid *grid, const char *key, fst_shown_units units,
-                                 fst_sweep_quantity *quantity, fst_error *error);
+fst_sweep_quantity fst_sweep_quantity_of(const fst_grid *grid, const char *key, fst_shown_units units);
+
+/* Bring the first `count` columns of a table, at the points of a slice, to the units of these quantities.  The scaled units
+ * are those of each point, as in an export, for a sweep may vary them; a point that lacks one has no value. */
+fst_status fst_sweep_convert(const fst_sweep_table *table, const fst_sweep_slice *slice,
+                             const fst_sweep_quantity *quantities, int count, fst_error *error);
 
 #endif

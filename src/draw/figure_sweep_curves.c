@@ -42,13 +42,13 @@ static void mention_empty(drawing *d, const char *label)
                    strstr(d->about, "no value of: ") ? ", " : "; no value of: ", label);
 }
 
-/* The values of key k at the points that are drawn, times `factor`; NULL: no memory. */
-static double *values_of(const drawing *d, int k, double factor)
+/* The values of key k at the points that are drawn; NULL: no memory. */
+static double *values_of(const drawing *d, int k)
 {
     const double *all = d->table->values + (size_t)k * (size_t)fst_grid_points(d->table->grid);
     double *values = fst_chart_keep(d->chart, (d->points + 1) * sizeof *values);
     for (size_t i = 0; values && i < d->points; ++i)
-        values[i] = factor * all[d->chosen[i]];
+        values[i] = all[d->chosen[i]];
     return values;
 }
 
@@ -110,7 +110,7 @@ static int note_gaps(drawing *d, const fst_sweep_slice *slice, int count)
 {
     const fst_grid *grid = d->table->grid;
     const double *all = d->table->values + (size_t)count * (size_t)fst_grid_points(grid);
-    const double *states = values_of(d, count, 1.0);
+    const double *states = values_of(d, count);
     d->gaps = fst_chart_keep(d->chart, (d->points + 1) * sizeof *d->gaps);
     d->all_gaps = d->points > 0;
     for (int64_t i = 0; i < slice->axes[0].count; ++i) {
@@ -182,12 +182,12 @@ static int add_panels(drawing *d, const fst_sweep_quantity *quantities, int coun
     const fst_curve_style style = plain && d->points <= MANY ? FST_CURVE_LINE_POINTS : FST_CURVE_POINTS;
     const double *regime = NULL;
     for (int k = 1; k < count && !plain; ++k)
-        if (strcmp(quantities[k].key, "regime") == 0 && !(regime = values_of(d, k, 1.0)))
+        if (strcmp(quantities[k].key, "regime") == 0 && !(regime = values_of(d, k)))
             return 0;
     for (int k = 0; k < count; ++k) {
         if (strcmp(quantities[k].key, "regime") == 0 && k > 0)
             continue;
-        const double *values = values_of(d, k, quantities[k].factor);
+        const double *values = values_of(d, k);
         if (!values)
             return 0;
         if (!any_value(values, d->points) && !(plain && d->all_gaps))
@@ -212,11 +212,14 @@ static void lay_abscissa(drawing *d, const fst_sweep_axis *axis)
     d->chart->x_high = high + wider;
 }
 
-/* The scaled angular velocity of a drive of 1 Hz; 0 for other axes. */
-static double scale_of_drive(const fst_grid *grid, const fst_sweep_axis *axis)
+/* The scaled angular velocity of a drive of 1 Hz, at the friction rate of these points; 0 for other axes. */
+static double scale_of_drive(const fst_grid *grid, const fst_sweep_axis *axis, int64_t start)
 {
+    fst_params point;
+    if (fst_grid_params(grid, start, &point, NULL) != FST_OK)
+        return 0.0;
     const char *key = fst_grid_key(grid, axis->index);
-    const double factor = FST_TWO_PI / fst_grid_base(grid)->friction_gamma;
+    const double factor = FST_TWO_PI / point.friction_gamma;
     const int in_hertz = strcmp(key, "drive.frequency") == 0
                              ? axis->factor == 1.0
                              : strcmp(key, "drive.omega") == 0 && axis->factor != 1.0;
@@ -245,10 +248,10 @@ static size_t choose_points(drawing *d, const fst_sweep_slice *slice)
 }
 
 /* Title, the line below it and the abscissas.  0: no memory. */
-static int dress(drawing *d, const fst_sweep_axis *axis)
+static int dress(drawing *d, const fst_sweep_axis *axis, int64_t start)
 {
     char words[128], title[192], tics[512];
-    const double scale = scale_of_drive(d->table->grid, axis);
+    const double scale = scale_of_drive(d->table->grid, axis, start);
     fst_sweep_words(axis->label, words);
     (void)snprintf(title, sizeof title, "Sweep over the %s", words);
     if (axis->choice)
@@ -287,7 +290,8 @@ static fst_status fill(drawing *d, const fst_sweep_quantity *quantities, int cou
         used += (size_t)snprintf(d->about + used, sizeof d->about - used, "; at %s", slice->words);
     if (step > 1 && used < sizeof d->about)
         (void)snprintf(d->about + used, sizeof d->about - used, "; drawn: one point of %zu", step);
-    return add_panels(d, quantities, count, plain) && dress(d, &slice->axes[0]) ? FST_OK : FST_NO_MEMORY;
+    return add_panels(d, quantities, count, plain) && dress(d, &slice->axes[0], slice->start) ? FST_OK
+                                                                                              : FST_NO_MEMORY;
 }
 
 fst_status fst_sweep_curves(const fst_sweep_table *table, const fst_sweep_quantity *quantities, int count,

@@ -40,7 +40,6 @@ typedef struct map {
     const fst_sweep_axis *axes; /* of the slice: the first one goes upward, the second one to the right */
     side up, right;
     const fst_sweep_names *names; /* that colours mean; NULL: the values are numbers */
-    double factor;
 } map;
 
 /* The points of the slice, and the value at one of them. */
@@ -155,7 +154,7 @@ static void write_cells(fst_figure_file *figure, const map *m, int regime)
                 (void)fprintf(figure->data, "%.7g %.7g %.9g %.9g %.9g %.9g %.7g\n",
                               m->right.places[column].value, m->up.places[row].value, m->right.edges[column],
                               upper_end(&m->right, &m->axes[1], next - 1), m->up.edges[row],
-                              upper_end(&m->up, &m->axes[0], row), value * m->factor);
+                              upper_end(&m->up, &m->axes[0], row), value);
             column = next;
         }
 }
@@ -194,8 +193,8 @@ static void write_heat(fst_figure_file *figure, const map *m, const char *label,
     double least = INFINITY, greatest = -INFINITY;
     for (int64_t i = 0; i < point_count(m); ++i)
         if (isfinite(value_of(m, i))) {
-            least = fmin(least, m->factor * value_of(m, i));
-            greatest = fmax(greatest, m->factor * value_of(m, i));
+            least = fmin(least, value_of(m, i));
+            greatest = fmax(greatest, value_of(m, i));
         }
     const double both = fmax(-least, greatest);
     fst_figure_palette(figure, least < 0 && greatest > 0 ? FST_PALETTE_DIVERGING : FST_PALETTE_LINE);
@@ -312,11 +311,7 @@ fst_status fst_figure_sweep_map(const fst_sweep_table *table, const fst_sweep_qu
                                 const fst_sweep_slice *slice, const fst_sweep_figure *options, const char *out,
                                 fst_error *error)
 {
-    map m = {.table = table,
-             .slice = slice,
-             .axes = slice->axes,
-             .names = fst_sweep_names_of(quantity->key),
-             .factor = quantity->factor};
+    map m = {.table = table, .slice = slice, .axes = slice->axes, .names = fst_sweep_names_of(quantity->key)};
     if (fst_grid_axis_stride(table->grid, m.axes[0].index) ==
         fst_grid_axis_stride(table->grid, m.axes[1].index))
         return fst_fail(error, FST_BAD_INPUT, out, "random points make no map: use fst_sweep_export()");

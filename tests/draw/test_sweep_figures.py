@@ -5,6 +5,7 @@ tests: draw/figure_sweep.c draw/figure_sweep_axes.c draw/figure_sweep_curves.c d
 
 import csv
 import io
+import json
 import math
 import os
 import re
@@ -183,15 +184,8 @@ class Maps(Figures):
         self.sweep("r.db", "start.r=0.5:1:random:4", "start.phi=0:90:random:4")
         self.assertIn("random points", self.refused("plot", self.path("r.db"), "-o", self.path("f.svg")))
         self.sweep("g.db", "friction.gamma=300,310", "drive.frequency=10,12")
-        for options in (["--units", "scaled"], ["--units", "lab", "--quantity", "mean_alpha_dot"]):
-            self.assertIn("friction.gamma", self.refused("plot", self.path("g.db"), *options, "-o", self.path("f.svg")))
-        self.good("plot", self.path("g.db"), "--units", "lab", "--quantity", "mean_r", "-o", self.path("f.svg"))
+        self.assertIn("friction.gamma", self.refused("plot", self.path("g.db"), "--units", "scaled", "-o", self.path("f.svg")))
         self.refused("plot", self.path("g.db"), "--units", "imperial", "-o", self.path("f.svg"))
-        # Where an axis is a unit, powers have none; nobody asked for one: they stay scaled.
-        self.sweep("h.db", "bead.mass=0.4g,0.5g")
-        power = ("--quantity", "mean_drive_power")
-        self.assertIn("varies bead.mass", self.refused("plot", self.path("h.db"), *power, "--units", "lab", "-o", self.path("f.svg")))
-        self.assertIn("γ³", self.plot("h.db", *power)[0])
         self.sweep("one.db", "drive.frequency=10,10,10")
         self.plot("one.db")  # a range of one value
         for word, told in (("lap", "the nearest is lab"), ("SI", "the nearest is si"), ("", "choose one of given, lab")):
@@ -224,6 +218,44 @@ class Units(Figures):
             script, cells = self.cells("o.db", "--quantity", key, "--units", "lab")
             self.assertIn(f"({unit})", script)
             self.assertLess(abs(cells[0][6] / self.cells("o.db", "--quantity", key)[1][0][6] / factor - 1), 1e-6)
+
+    def test_units_are_those_of_each_point(self):
+        """A varied parameter may be a unit, or make one: all columns are drawn as they are exported, whatever it is."""
+        with open(self.path("density.yaml"), "w") as scene:
+            scene.write("bead: {radius: 1.5 mm, density: 7.5 g/cm^3, remanence: 1.1 T}\nmagnet: {b0: 9 mT}\n"
+                        "run: {periods: 4, discard: 2}\n")
+        with open(self.path("beads.yaml"), "w") as scene:
+            scene.write("bead: {density: 7.5 g/cm^3}\nrun: {periods: 3, discard: 2}\ncontact: {pair_rate: 312.5}\n"
+                        "beads: [start.phi: 3 deg, start.phi: 183 deg]\n")
+        for scene, axis in (("density", "bead.radius=1mm,1.5mm"), ("density", "bead.density=7000,7500"),
+                            ("density", "magnet.b0=8mT,9mT"), ("density", "friction.gamma=300,310"),
+                            ("density", "magnet.half_length=22mm,23mm"), ("density", "friction.gamma=310"),
+                            ("beads", "bead.density=7000,7500")):
+            name, key = self.path(f"{scene}-{axis}.db"), axis.split("=")[0]
+            self.good("sweep", self.path(f"{scene}.yaml"), "--over", axis, "--over", "drive.frequency=10,10.7", "-o", name)
+            rows = json.loads(self.good("export", name, "--json"))
+            columns = [column for column in rows[0] if all(isinstance(row[column], float) for row in rows)
+                       and column not in (key, "drive.frequency")]
+            self.assertGreater(len(columns), 7)
+            for few in (columns[i : i + 8] for i in range(0, len(columns), 8)):
+                shown = ("--units", "lab", "--quantity", ",".join(few))
+                head, *lines = csv.reader(io.StringIO(self.good("export", name, "--csv", *shown)))
+                blocks = self.plot(f"{scene}-{axis}.db", "--kind", "curves", *shown)[1]
+                for panel, column in enumerate(few, 1):
+                    place = [word.split(" ")[0] for word in head].index(column)
+                    wanted = sorted(float(line[place]) for line in lines)
+                    drawn = sorted(y for block, points in blocks.items() if block.startswith(f"panel{panel}-")
+                                   for _, y in points if math.isfinite(y))
+                    self.assertEqual(len(drawn), len(wanted), (axis, column))
+                    for one, other in zip(drawn, wanted):
+                        self.assertLessEqual(abs(one - other), 1e-5 * abs(other), (axis, head[place]))
+
+    def test_the_upper_axis_has_the_friction_rate_of_the_points(self):
+        self.sweep("g.db", "friction.gamma=300,600", "drive.frequency=9,10")
+        script = self.plot("g.db", "--only", "friction.gamma=600", "--quantity", "mean_r")[0]
+        low = float(re.search(r"set x2range \[(\S+):", script).group(1))
+        self.assertAlmostEqual(low, 9 * 2 * math.pi / 600, 6)
+        self.assertNotIn("drive ω", self.plot("g.db", "--kind", "curves", "--quantity", "mean_r")[0])
 
     def test_metres_become_half_lengths(self):
         self.sweep("m.db", "magnet.depth=15mm:17mm:3", "bead.radius=2mm,3mm")
