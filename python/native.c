@@ -272,6 +272,19 @@ pyf_row *pyf_batch_rows(pyf_batch *batch)
     return batch->rows;
 }
 
+fst_status pyf_grid_scales(const fst_grid *grid, const int64_t *points, size_t count, fst_scales *scales,
+                           fst_error *error)
+{
+    fst_status status = FST_OK;
+    for (size_t i = 0; i < count && status == FST_OK; ++i) {
+        fst_params params;
+        status = fst_grid_params(grid, points[i], &params, error);
+        if (status == FST_OK)
+            scales[i] = fst_scales_of(&params);
+    }
+    return status;
+}
+
 /* ------------------------------------------------------------------ the field, and states */
 
 void pyf_field(const fst_model *model, size_t count, const double *x, const double *y, double *b, double *grad)

@@ -59,6 +59,10 @@ pyf_row *pyf_batch_rows(pyf_batch *batch);
 /* Keep the error of a row that failed; 0: no memory. */
 int pyf_row_fail(pyf_row *row, const char *where, const char *sentence);
 
+/* The scales of these points of a grid. */
+fst_status pyf_grid_scales(const fst_grid *grid, const int64_t *points, size_t count, fst_scales *scales,
+                           fst_error *error);
+
 /* The field at `count` points: 3 numbers of b and 9 of grad for each. */
 void pyf_field(const fst_model *model, size_t count, const double *x, const double *y, double *b, double *grad);
 

@@ -14,6 +14,7 @@ from ._tables import RESULTS
 from .bead import Bead
 from .orbits import _choose
 from .runs import REGIMES
+from .sweep_tables import ScalesOver
 
 
 #: The most curves that stand side by side; a sweep with more values of both parameters is a map.
@@ -79,9 +80,9 @@ def _sweep_values(sweep: Any, y: str, units: str) -> Tuple[Any, str, str]:
     """Values, label and words of what is drawn."""
     if y == "regime":
         return _regime_index(sweep), "", "regimes"
-    scales = _style.scales_of(lib.fst_grid_base(sweep._grid))
-    shown = _style.of_result(y, RESULTS[y][0], units, scales)
-    return sweep._array(y) * shown.factor, shown.label, shown.words
+    scales = ScalesOver(sweep._scales(), units)
+    shown = _style.of_result(y, RESULTS[y][0], units, scales._scales)
+    return sweep._array(y) * scales.factor(y, RESULTS[y][0])[0], shown.label, shown.words
 
 
 def sweep(

@@ -71,7 +71,7 @@ class Scales:
         self._scales = ffi.new("fst_scales *", params if given else lib.fst_scales_of(params))
         self._known: Dict[Tuple[str, str], Tuple[float, str]] = {}
 
-    def factor(self, number: str, unit: str) -> Tuple[float, str]:
+    def factor(self, number: str, unit: str) -> Tuple[Any, str]:
         """The factor of a number of the tables and its unit there, and the name of the unit that it leads to."""
         unit = "gamma" if number == "omega" else unit  # which a run's table calls a pure number, and all others a rate
         if (number, unit) not in self._known:
@@ -89,6 +89,8 @@ class Scales:
             return values, "" if row.kind == lib.FST_KIND_CHOICE else "1"
         if key == "drive.omega":
             factor, unit = self.factor("omega", "gamma")
+            if np.ndim(factor):  # the unit is varied too
+                return values, "gamma"
             return (values if factor == 1.0 else values * factor), unit
         if self._units != UNITS["lab"]:
             return values, text_of(lib.fst_unit_name(row.unit))

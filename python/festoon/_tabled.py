@@ -57,7 +57,10 @@ def scaled_columns(
         array, unit = np.asarray(given), units.get(name, "")
         if unit:
             factor, unit = scales.factor(name.removeprefix("final_"), unit)
-            array = array if factor == 1.0 else array * factor
+            if np.ndim(factor):  # one for each row
+                array = array * np.reshape(factor, np.shape(factor) + (1,) * (array.ndim - np.ndim(factor)))
+            elif factor != 1.0:
+                array = array * factor
         further = tuple(f"{name}_{i}" if i else f"number_of_{name}" for i in range(array.ndim - len(dims)))
         made[name] = Column((*dims, *further), array, unit, docs.get(name, ""))
     return made

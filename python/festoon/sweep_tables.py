@@ -6,7 +6,7 @@ import numpy as np
 
 from ._errors import BadInput
 from ._keys import keyword_of, row_of
-from ._native import lent, lib, text_of
+from ._native import call, ffi, lent, lib, text_of
 from ._pickled import Told
 from ._quantities import Scales
 from ._tabled import NUMBERS, Column, Shown, Table, about, numbers_of, scaled_columns
@@ -44,12 +44,30 @@ def sizes_of(axes: List[Axis]) -> Dict[str, int]:
     return {"draw" if axis.random else axis.keyword: len(axis.values) for axis in axes}
 
 
-def scales_over(axes: List[Axis], base: Any, units: Optional[str]) -> Scales:
-    """The scales of a grid's runs, whose unit must not be varied itself."""
-    for axis in axes if units not in (None, "scaled") else ():
-        if axis.key in ("magnet.half_length", "friction.gamma", "bead.mass"):
-            raise BadInput("sweep", f"{axis.key} is varied, and with it the unit of the scaled numbers")
-    return Scales(base, units or "scaled")
+def scales_at(grid: Any, points: Any) -> Any:
+    """The four scales of each of these points of a grid, which may vary them: a further dimension."""
+    made = np.empty((*points.shape, 4))
+    numbers = np.ascontiguousarray(points, np.int64)
+    call(lib.pyf_grid_scales, grid, ffi.from_buffer("int64_t[]", numbers), points.size, ffi.from_buffer("fst_scales[]", made))
+    return made
+
+
+class ScalesOver(Scales):
+    """Factors for the rows of a sweep, each with the units of its point: an array where these differ, else one number."""
+
+    def __init__(self, scales: Any, units: Optional[str]) -> None:
+        distinct, which = np.unique(scales.reshape(-1, 4).view(np.uint64), axis=0, return_inverse=True)
+        self._which = which.reshape(scales.shape[:-1])
+        self._each = [Scales(ffi.new("fst_scales *", list(map(float, row)))[0], units or "scaled") for row in distinct.view(float)]
+        first = scales.reshape(-1, 4)[0] if scales.size else [1.0] * 4
+        super().__init__(ffi.new("fst_scales *", list(map(float, first)))[0], units or "scaled")
+
+    def factor(self, number: str, unit: str) -> Tuple[Any, str]:
+        factor, name = super().factor(number, unit)
+        each = [scales.factor(number, unit) for scales in self._each]
+        if len({one for one, _ in each}) <= 1 or name == unit:
+            return factor, name
+        return np.array([one if its == name else np.nan for one, its in each])[self._which], name
 
 
 def coords_of(axes: List[Axis], dims: Tuple[str, ...], points: Any, scales: Scales) -> Dict[str, Column]:
@@ -77,6 +95,7 @@ class SweepTable(Shown, Told):
         self.dims = tuple(self._sizes)
         self._base = Bead._unmade(lib.fst_grid_base(grid)[0])
         self._rows = rows
+        self._scales = scales_at(grid, np.arange(int(np.prod(self.shape))).reshape(self.shape))
         self._units = {name: text_of(lib.fst_sweep_key_unit(grid, name.encode())) for name in (rows[0] if rows else ())}
 
     @property
@@ -125,7 +144,7 @@ class SweepTable(Shown, Told):
         return {name: [row[name] for row in self._rows] for name in self.columns}
 
     def _table(self, units: Optional[str]) -> Table:
-        scales = scales_over(self.axes, self._base._params, units)
+        scales = ScalesOver(self._scales, units)
         coords = coords_of(self.axes, self.dims, np.arange(int(np.prod(self.shape))).reshape(self.shape), scales)
         values = {name: self[name] for name in self.columns if name not in (*coords, *(axis.key for axis in self.axes))}
         states = values.pop("final_state", None)

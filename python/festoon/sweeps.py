@@ -14,7 +14,7 @@ from ._tabled import NUMBERS, OF_PLATE, Table, Tabled, about, numbers_of, scaled
 from ._tables import PARAMETERS, RESULTS, SweepNumbers
 from .bead import Bead
 from .runs import REGIMES, SYMMETRIES, Run
-from .sweep_tables import Axis, SweepTable, coords_of, scales_over, sizes_of
+from .sweep_tables import Axis, ScalesOver, SweepTable, coords_of, scales_at, sizes_of
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -26,7 +26,7 @@ class SweepIn(SweepNumbers):
 
     def __init__(self, sweep: "Sweep", units: str) -> None:
         self._sweep, self._units = sweep, units
-        self._scales = scales_over(sweep.axes, lib.fst_grid_base(sweep._grid), units)
+        self._scales = ScalesOver(sweep._scales(), units)
 
     def _array(self, name: str) -> Any:
         return self._sweep._array(name) * self._scales.factor(name, RESULTS[name][0])[0]
@@ -78,6 +78,7 @@ class Sweep(Tabled, SweepNumbers):
         #: The name of each dimension.
         self.dims: Tuple[str, ...] = tuple(sizes)
         self._points = np.arange(len(rows)).reshape(tuple(sizes.values()))
+        self._known_scales: Any = None
 
     # ------------------------------------------------------------------ its points
 
@@ -158,7 +159,7 @@ class Sweep(Tabled, SweepNumbers):
             return self._run(int(points))
         made = object.__new__(Sweep)
         made.__dict__.update(self.__dict__)
-        made._points = points
+        made._points, made._known_scales = points, None
         made.dims = self._dims_of(index, points.ndim)
         return made
 
@@ -202,6 +203,11 @@ class Sweep(Tabled, SweepNumbers):
         if self._points.size == len(self._rows) and self._points.flags.c_contiguous:
             return column.reshape(self._points.shape)
         return lent(column[self._points])
+
+    def _scales(self) -> Any:
+        if self._known_scales is None:
+            self._known_scales = scales_at(self._grid, self._points)
+        return self._known_scales
 
     def _status(self) -> Any:
         return lent(np.where(self._rows["done"], self._rows["status"], NOT_RUN)[self._points])
@@ -349,8 +355,8 @@ class Sweep(Tabled, SweepNumbers):
     # ------------------------------------------------------------------ for other libraries
 
     def _table(self, units: Optional[str]) -> Table:
-        """The columns of `festoon export --csv`; results cannot leave where the unit of the scaled ones is varied."""
-        shown = scales_over(self.axes, lib.fst_grid_base(self._grid), units)
+        """The columns of `festoon export --csv`, each row in the units of its point."""
+        shown = ScalesOver(self._scales(), units)
         coords = coords_of(self.axes, self.dims, self._points, shown)
         known, docs = ({name: row[i] for name, row in RESULTS.items()} for i in (0, 1))
         result = self._rows["result"]

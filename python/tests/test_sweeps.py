@@ -1,5 +1,6 @@
 """Sweeps: their points, files, refinement, and tables for other libraries."""
 
+import csv
 import json
 import math
 import pickle
@@ -78,8 +79,47 @@ def test_sweep_for_other_libraries():
         assert fs.Bead(about["scene"]) == s.bead(0, 0).replace(frequency=fs.UNSET, kappa=fs.UNSET)
         assert about["version"] == fs.__version__ and about["axes"] == "drive.frequency=9,10,11; model.kappa=1.2,1.5"
     assert s.to_pandas().attrs["units"]["kappa"] == "1" and s.to_pandas().attrs["units"]["mean_r"] == "l"
-    with pytest.raises(fs.BadInput, match="unit of the scaled numbers"):
-        fs.sweep(fs.Bead(run__periods=2), gamma=[300, 310]).to_pandas("lab")
+
+REAL = {"bead__radius": "1.5 mm", "bead__density": 7500, "bead__remanence": 1.1, "magnet__b0": 9e-3}
+
+
+@pytest.mark.parametrize("axis", [{"bead__radius": [1e-3, 1.5e-3]}, {"bead__density": [7000, 7500]}, {"magnet__b0": [8e-3, 9e-3]},
+                                  {"gamma": [300, 310]}, {"gamma": [310]}, {"magnet__half_length": [0.022, 0.023]},
+                                  {"bead__density": [7000, 7500], "beads": 1}])
+def test_units_are_those_of_each_point(tmp_path, axis):
+    """A varied parameter may be a unit, or make one: every column is what the program exports."""
+    pytest.importorskip("pandas")
+    pytest.importorskip("xarray")
+    axis, file = dict(axis), tmp_path / "s.db"
+    bead = fs.Bead(**REAL, run__periods=4, run__discard=2)
+    if axis.pop("beads", 0):
+        bead = fs.Beads(beads=[{"start__phi": 3}, {"start__phi": 183}], bead__density=7500, contact__pair_rate=312.5,
+                        run__periods=3, run__discard=2)
+    s = fs.sweep(bead, **axis, frequency=[10, 10.7], file=file)
+    frame, data = s.to_pandas("lab"), s.to_xarray("lab")
+    columns = list(fs._tables.RESULTS) if isinstance(s, fs.Sweep) else s.columns[s.columns.index("reason") + 1 :]
+    seen = 0
+    for name in columns:
+        fs.export(file, tmp_path / "c.csv", [name], units="lab")
+        head, *lines = csv.reader(open(tmp_path / "c.csv", newline=""))
+        title = head[2]
+        try:
+            wanted = np.array([float(line[2] or "nan") for line in lines])
+        except ValueError:
+            continue  # names
+        if name == "omega":  # a pure number there
+            continue
+        for shown in (frame[name], data[name].values.ravel(), getattr(s.lab, name).ravel()):
+            np.testing.assert_allclose(np.asarray(shown, float), wanted, rtol=1e-13, err_msg=title)
+        unit = frame.attrs["units"].get(name, "1")
+        assert unit == s.lab.unit(name) or unit == "1", name
+        assert title == (name if unit == "1" else f"{name} [{unit}]")
+        seen += 1
+    assert seen > 7
+    if isinstance(s, fs.Sweep):
+        pytest.importorskip("matplotlib")
+        line = s.plot("mean_friction_power", units="lab", x="frequency" if s.shape[0] > 1 else None, kind="curves").lines[0]
+        assert line.get_ydata() == pytest.approx(s.lab.mean_friction_power[0])
 
 
 @pytest.mark.parametrize("axes, scene, carried", [
@@ -142,8 +182,7 @@ def test_sweep_with_random_and_logarithmic_axes():
     bead = fs.Bead(run__periods=2)
     s = fs.sweep(bead, kappa="1:2:random:5", gamma="200:400:random:5", seed=7)
     assert s.shape == (5,) and s.dims == ("draw",) and len(set(s.parameter("kappa"))) == 5
-    with pytest.raises(fs.BadInput, match="unit"):
-        s.si
+    assert s.si.max_slip == pytest.approx(s.max_slip * 0.023 * s.parameter("gamma"))
     s = fs.sweep(bead, kappa="1:4:3:log")
     assert s.parameter("kappa").tolist() == pytest.approx([1, 2, 4])
     with pytest.raises(fs.BadInput, match="nearest"):
