@@ -33,7 +33,7 @@ class RunIn(RunNumbers):
         self._scales = Scales(run.bead._params, units)
 
     def _number(self, name: str) -> float:
-        return self._run._number(name) * self._scales.factor(name, RESULTS[name][0])[0]
+        return self._run._number(name) * float(self._scales.factor(name, RESULTS[name][0])[0])
 
     def unit(self, name: str) -> str:
         """The unit of a number here."""
