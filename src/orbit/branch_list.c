@@ -78,16 +78,22 @@ static int lies_between(double a, double b, double x, double value, double least
     return fabs(a + x * (b - a) - value) < least + 0.25 * fabs(b - a);
 }
 
+/* The least distance from the axis, negative where the orbit does not go round it: so it passes through zero. */
+static double side_of_axis(const fst_branch_point *p)
+{
+    return p->turns == 0 ? -p->min_r : p->min_r;
+}
+
 int fst_branch_of_orbit(const fst_branch *out, const fst_branch_point *seen, int has_s2)
 {
     for (size_t i = 0; i + 1 < out->point_count; ++i) {
         const fst_branch_point *a = &out->points[i], *b = a + 1;
         const double x = (seen->value - a->value) / (b->value - a->value);
-        if (a->branch != b->branch || a->multipliers != seen->multipliers || a->symmetry != seen->symmetry ||
-            !(x >= 0.0 && x <= 1.0))
+        if (a->branch != b->branch || a->multipliers != seen->multipliers ||
+            (a->symmetry != seen->symmetry && b->symmetry != seen->symmetry) || !(x >= 0.0 && x <= 1.0))
             continue;
         if (lies_between(a->mean_r, b->mean_r, x, seen->mean_r, 2e-3) &&
-            lies_between(a->min_r, b->min_r, x, seen->min_r, 2e-2) &&
+            lies_between(side_of_axis(a), side_of_axis(b), x, side_of_axis(seen), 2e-2) &&
             lies_between(a->period, b->period, x, seen->period, 2e-3 * seen->period) &&
             (lies_between(a->mean_nz, b->mean_nz, x, seen->mean_nz, 5e-3) ||
              (has_s2 && lies_between(a->mean_nz, b->mean_nz, x, -seen->mean_nz, 5e-3))))

@@ -25,6 +25,8 @@
 #include "observe/marks.h"
 
 #define SHORTEST_STEP 1e-7
+/* A step whose special points could not be told is refused down to this length. */
+#define SHORTEST_IN_DOUBT 1e-5
 /* Dry friction: a step so short may stand before a kink of the curve, which is leapt over; and one so short does. */
 #define STEP_NEAR_KINK 4e-3
 #define STEP_AT_KINK 2e-4
@@ -281,6 +283,11 @@ static fst_status follow(fst_curve *curve, const fst_node *start, int sign, fst_
                        ? fst_look_for_hopf_end(curve->family, &curve->sink, &last, &here, &curve->end, error)
                        : FST_OK;
         fst_status status = fst_specials_between(curve->family, &curve->sink, &here, &next, &curve->end, error);
+        if (status == FST_OK && curve->end.type == FST_END_LOST && h > SHORTEST_IN_DOUBT) {
+            curve->end = (fst_curve_end){.type = FST_END_NONE};
+            h = 0.5 * fmin(h, next.length);
+            continue;
+        }
         if (status == FST_OK && curve->end.type == FST_END_NONE)
             status = curve->sink.node(curve->sink.user, &next, error);
         if (status != FST_OK || curve->end.type != FST_END_NONE)

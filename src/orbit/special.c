@@ -57,6 +57,23 @@ static fst_status tell(const interval *i, fst_special_type type, const fst_node 
     return i->sink->special(i->sink->user, type, at, criticality, born, error);
 }
 
+/* Whether tests may not jump on the way.  Under dry friction those of orbits that rest or fly do; and a step so short,
+ * to a border on which the curve begins, has no direction. */
+static int is_smooth(const interval *i)
+{
+    return i->a->captures + i->b->captures == 0 && i->b->length > 1e-7;
+}
+
+/* What changed between the nodes has no place between them: b may lie on another curve than a. */
+static void doubt(const interval *i)
+{
+    if (is_smooth(i))
+        fst_curve_end_set(i->end, FST_END_LOST,
+                          "its stability changes between %.10g and %.10g at no special point: it may go on as "
+                          "another branch",
+                          i->a->s.value, i->b->s.value);
+}
+
 /* ------------------------------------------------------------------ naming and switching */
 
 /* The state half a period on. */
@@ -282,9 +299,13 @@ static fst_status report_turn(const interval *i, fst_error *error)
     }
     if (!i->sink->special && a->s.segments > 0) /* nobody hears of a fold */
         return FST_OK;
-    if (fst_locate_special(i->family, a, b, FST_TEST_FOLD, &at, &why) != FST_OK) {
+    /* At a fold of orbits a multiplier passes 1, once. */
+    const int alone = a->s.segments > 0 && is_smooth(i) && !fst_test_changes(a, b, FST_TEST_PLUS);
+    if (alone || fst_locate_special(i->family, a, b, FST_TEST_FOLD, &at, &why) != FST_OK) {
         if (a->s.segments == 0) /* Newton's matrix is singular where two curves meet */
             fst_curve_end_set(i->end, FST_END_OTHER_BRANCH, "it ends on another branch near %.6g", b->s.value);
+        else
+            doubt(i);
         return FST_OK;
     }
     if (at.s.segments == 0 && (becomes_its_image(a, b, 1) || is_branch_point(i->family, &at.s))) {
@@ -464,6 +485,8 @@ static fst_status look_between(const fst_family *family, const fst_curve_sink *s
         if (fst_locate_special(family, a, b, test, &at, &why) != FST_OK) {
             if (a->captures == b->captures && at.captures != a->captures && at.length > 1e-4)
                 return look_in_parts(&i, &at, error); /* two grazings */
+            if (test != FST_TEST_ORIGIN)
+                doubt(&i);
             continue;
         }
         if (test == FST_TEST_PLUS && at.s.segments == 0) {
