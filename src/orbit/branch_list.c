@@ -61,14 +61,27 @@ void fst_branch_reverse(fst_branch *out, size_t first)
 
 /* ------------------------------------------------------------------ looking things up */
 
-int fst_branch_has_special(const fst_branch *out, const fst_special *special, double scale)
+int fst_branch_find_special(const fst_branch *out, const fst_special *special, double scale)
 {
     for (size_t i = 0; i < out->special_count; ++i)
         if (out->specials[i].type == special->type &&
             fabs(out->specials[i].value - special->value) < 1e-8 * scale &&
             fabs(out->specials[i].at.mean_r - special->at.mean_r) < 1e-6)
-            return 1;
-    return 0;
+            return (int)i;
+    return -1;
+}
+
+int fst_branch_of_last(const fst_branch *out)
+{
+    const double same = 1e-7;
+    const fst_branch_point *b = &out->points[out->point_count - 1];
+    for (const fst_branch_point *a = out->points; a < b; ++a)
+        if (a->branch != b->branch && a->multipliers == b->multipliers &&
+            fabs(a->value - b->value) < 1e-12 * fabs(b->value) &&
+            fabs(a->period - b->period) < same * b->period && fabs(a->mean_r - b->mean_r) < same &&
+            fabs(a->min_r - b->min_r) < same && fabs(a->mean_nz - b->mean_nz) < same)
+            return a->branch;
+    return -1;
 }
 
 /* Whether a quantity may have this value between two neighbours a and b, x of the way from a: within `least` of

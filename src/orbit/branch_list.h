@@ -13,8 +13,11 @@ fst_status fst_branch_add_end(fst_branch *out, int branch, int family, double va
 /* The points from index `first` on in the opposite order. */
 void fst_branch_reverse(fst_branch *out, size_t first);
 
-/* Whether a special point is in the list already: met again on a curve that closes, or on a conjugate. */
-int fst_branch_has_special(const fst_branch *out, const fst_special *special, double scale);
+/* Where in the list a special point is already, met again on a curve that closes, or on a conjugate; -1: nowhere. */
+int fst_branch_find_special(const fst_branch *out, const fst_special *special, double scale);
+
+/* The branch, other than that of the last point, which holds the same orbit at the same value; -1: none does. */
+int fst_branch_of_last(const fst_branch *out);
 
 /* The branch on which an orbit lies, by its numbers, for its first state may be any; -1: on none.  With S2 its image counts
  * as the same orbit. */

@@ -472,12 +472,15 @@ static fst_status look_between(const fst_family *family, const fst_curve_sink *s
     fst_node at;
     fst_error why;
     /* Several crossings in one step may hide each other: look at its halves. */
-    if (hides_something(a, b) && b->length > 1e-4 && fst_node_between(family, a, b, 0.5, &at, &why) == FST_OK) {
+    const int hides = hides_something(a, b) && b->length > 1e-4;
+    if (hides && fst_node_between(family, a, b, 0.5, &at, &why) == FST_OK) {
         at.length = 0.5 * b->length;
         return look_in_parts(&i, &at, error);
     }
     const int turn = fst_test_changes(a, b, FST_TEST_FOLD);
     fst_status status = turn ? report_turn(&i, error) : FST_OK;
+    if (hides && end->type == FST_END_NONE)
+        doubt(&i);
     for (int test = FST_TEST_FOLD + 1; test < FST_TEST_COUNT && end->type == FST_END_NONE && status == FST_OK;
          ++test) {
         if (!fst_test_changes(a, b, test) || (test == FST_TEST_PLUS && turn))
@@ -485,8 +488,12 @@ static fst_status look_between(const fst_family *family, const fst_curve_sink *s
         if (fst_locate_special(family, a, b, test, &at, &why) != FST_OK) {
             if (a->captures == b->captures && at.captures != a->captures && at.length > 1e-4)
                 return look_in_parts(&i, &at, error); /* two grazings */
-            if (test != FST_TEST_ORIGIN)
+            if (test != FST_TEST_ORIGIN && at.captures == a->captures)
                 doubt(&i);
+            continue;
+        }
+        if (test == FST_TEST_PLUS && at.s.segments > 0 && fabs(at.s.tangent.value) < 1e-6) {
+            doubt(&i); /* a fold, after which the curve turned back */
             continue;
         }
         if (test == FST_TEST_PLUS && at.s.segments == 0) {

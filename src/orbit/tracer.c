@@ -60,7 +60,10 @@ static fst_status take_special(void *user, fst_special_type type, const fst_node
     special.born = -1;
     special.at = at->seen;
     special.at.branch = t->branch;
-    if (fst_branch_has_special(t->out, &special, t->family.scale))
+    const int known = fst_branch_find_special(t->out, &special, t->family.scale);
+    if (known >= 0 && type == FST_SPECIAL_HOPF)
+        t->other = t->out->specials[known].branch;
+    if (known >= 0)
         return FST_OK;
     if (t->options->second_key && type == t->options->special && t->start_count < FST_PENDING)
         t->starts[t->start_count++] = *at;
@@ -91,6 +94,19 @@ static int was_met(fst_tracer *t, const fst_pending *from)
     return met >= 0;
 }
 
+/* Where a counter-rotating branch ends in the same orbit as another one, both are one branch, found twice: one curve alone
+ * leads to a border at one orbit, or to a Hopf point. */
+static fst_status end_branch(fst_tracer *t, const fst_pending *from, fst_curve_end *end, fst_error *error)
+{
+    int other = end->type == FST_END_EQUILIBRIUM ? t->other : -1;
+    if (end->type == FST_END_RANGE && from->start.s.segments > 0)
+        other = fst_branch_of_last(t->out);
+    if (t->options->kind == FST_BRANCH_COUNTER && other >= 0 && other != from->branch)
+        fst_curve_end_set(end, FST_END_OTHER_BRANCH, "it goes on as branch %d, and ends where that does",
+                          other);
+    return fst_branch_add_end(t->out, from->branch, from->family, t->last_value, end, error);
+}
+
 /* One branch from a node on it, both ways, or, if it was born at a special point, away from that. */
 static fst_status follow_branch(fst_tracer *t, const fst_pending *from, fst_error *error)
 {
@@ -105,22 +121,22 @@ static fst_status follow_branch(fst_tracer *t, const fst_pending *from, fst_erro
     t->depth = from->depth;
     const size_t first = t->out->point_count;
     fst_status status = FST_OK;
+    t->other = -1;
     if (!from->one_way) {
         t->last_value = from->start.s.value;
         status = fst_curve_follow(&curve, &from->start, -1, error);
-        fst_branch_reverse(t->out, first);
         if (status == FST_OK)
-            status = fst_branch_add_end(t->out, from->branch, from->family, t->last_value, &curve.end, error);
+            status = end_branch(t, from, &curve.end, error);
+        fst_branch_reverse(t->out, first);
         if (curve.end.type == FST_END_CLOSED) /* the other way would be the same points again */
             return status;
     }
+    t->other = -1;
     if (status == FST_OK)
         status = take_node(t, &from->start, error);
     if (status == FST_OK)
         status = fst_curve_follow(&curve, &from->start, 1, error);
-    return status == FST_OK
-               ? fst_branch_add_end(t->out, from->branch, from->family, t->last_value, &curve.end, error)
-               : status;
+    return status == FST_OK ? end_branch(t, from, &curve.end, error) : status;
 }
 
 fst_status fst_tracer_run(fst_tracer *t, fst_error *error)

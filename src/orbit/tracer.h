@@ -22,6 +22,7 @@ typedef struct fst_tracer {
     int pending_count, branch_count;
     int branch, depth; /* of the curve being followed */
     int follow_hopf;   /* follow orbits born from equilibria */
+    int other;         /* branch at whose Hopf point that curve ended too; -1: none */
     double last_value;
     fst_watch watch;              /* its present part: the branches that are pending */
     int done;                     /* of the pending ones */
