@@ -194,6 +194,71 @@ static void both_halves_of_a_broken_pitchfork(void **state)
     CHECK_CLOSE(shift[1] / shift[0], 4.0, 0.4);
 }
 
+/* Two blocks of which the second is magnetised the other way and a little less; drive.frequency in Hz. */
+static fst_params over_blocks(double weaker)
+{
+    fst_params params = fst_default_params();
+    fst_error error;
+    assert_int_equal(fst_params_set(&params, "magnet.shape", "parts", &error), FST_OK);
+    assert_int_equal(fst_params_set(&params, "magnet.depth", "16.2 mm", &error), FST_OK);
+    assert_int_equal(fst_params_set(&params, "drive.frequency", "22 Hz", &error), FST_OK);
+    params.magnet_part_count = 2;
+    for (int i = 0; i < 2; ++i) {
+        fst_magnet_part *part = &params.magnet_parts[i];
+        memset(part, 0, sizeof *part);
+        part->kind = FST_PART_CUBOID;
+        part->rotation[3] = 1.0;
+        part->centre[0] = i ? -0.015 : 0.015;
+        part->size[0] = part->size[1] = 0.02;
+        part->size[2] = 0.008;
+        part->remanence[2] = i ? weaker - 1.0 : 1.0;
+    }
+    return params;
+}
+
+/* Long steps do not leap over the gap that a weaker block opens at the pitchfork: each Hopf point belongs to one branch,
+ * and behind the fold the pair's other half repels all the way to the border. */
+static void no_leap_over_the_gap(void **state)
+{
+    static const double weaker[] = {0.01, 0.001};
+    (void)state;
+    for (int i = 0; i < 2; ++i) {
+        const fst_params params = over_blocks(weaker[i]);
+        fst_branch_options o = over_omega(FST_BRANCH_COUNTER, 21.5, 32.0);
+        o.key = "drive.frequency";
+        o.tolerance = 1e-9;
+        fst_branch b = followed(&params, &o);
+        int hopf[2] = {0, 0}, fold = -1, repel[2] = {0, 0};
+        double turn = NAN, low = INFINITY;
+        assert_int_equal(b.branches, 2);
+        assert_int_equal(b.end_count, 4);
+        for (size_t k = 0; k < b.special_count; ++k) {
+            const fst_special *s = &b.specials[k];
+            hopf[s->branch] += s->type == FST_SPECIAL_HOPF;
+            if (s->type == FST_SPECIAL_FOLD) {
+                assert_int_equal(fold, -1);
+                fold = s->branch;
+                turn = s->value;
+            }
+        }
+        assert_in_range(fold, 0, 1);
+        assert_int_equal(hopf[0], 1);
+        assert_int_equal(hopf[1], 1);
+        for (size_t k = 0; k < b.point_count; ++k) {
+            const fst_branch_point *p = &b.points[k];
+            repel[p->branch] += !p->stable;
+            if (p->branch == fold)
+                assert_true(p->value < turn + 1e-6);
+            if (!p->stable)
+                low = fmin(low, p->value);
+        }
+        assert_int_equal(repel[1 - fold], 0);
+        assert_true(repel[fold] > 3);
+        CHECK_CLOSE(low, o.from, 1e-9);
+        fst_branch_free(&b);
+    }
+}
+
 static fst_status stop_at_once(void *user, double fraction, const char *what, fst_error *error)
 {
     (void)what;
@@ -245,6 +310,7 @@ int main(void)
         cmocka_unit_test(a_range_without_symmetric_orbits),
         cmocka_unit_test(images_under_s2),
         cmocka_unit_test(both_halves_of_a_broken_pitchfork),
+        cmocka_unit_test(no_leap_over_the_gap),
         cmocka_unit_test(refusals_and_interruption),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
