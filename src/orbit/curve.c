@@ -15,7 +15,8 @@
  * a step must not jump from one to another: it is taken only if Newton's method ended near the guess and the
  * tangent turned by little; otherwise h is halved.  Easy steps make h grow, hard ones make it shrink.  A step
  * that leaves the range of p is cut where it crosses the border, and the last point lies on the border exactly.
- * After each step special.c looks at what happened on the way.
+ * After each step special.c looks at what happened on the way; if what changed has no place on the way, the step has
+ * left the curve through a gap that is short beside it, and is refused too.
  */
 #include "orbit/curve.h"
 
@@ -25,7 +26,7 @@
 #include "observe/marks.h"
 
 #define SHORTEST_STEP 1e-7
-/* A step whose special points could not be told is refused down to this length. */
+/* A step on which what changed has no place is refused down to this length; then the curve is lost. */
 #define SHORTEST_IN_DOUBT 1e-5
 /* Dry friction: a step so short may stand before a kink of the curve, which is leapt over; and one so short does. */
 #define STEP_NEAR_KINK 4e-3

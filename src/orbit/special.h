@@ -16,7 +16,8 @@ typedef struct fst_curve_sink {
 } fst_curve_sink;
 
 /* Report every special point between two successive nodes; *end is filled in where the curve runs into a state
- * of higher symmetry (a symmetric orbit, an equilibrium) and would only come back on itself. */
+ * of higher symmetry (a symmetric orbit, an equilibrium) and would only come back on itself; FST_END_LOST where what changed has no place between the two, which then may
+ * lie on two curves. */
 fst_status fst_specials_between(const fst_family *family, const fst_curve_sink *sink, const fst_node *a,
                                 const fst_node *b, fst_curve_end *end, fst_error *error);
 
