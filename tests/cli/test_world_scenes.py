@@ -171,6 +171,7 @@ class Worlds(Case):
         self.assertEqual({len(p["state"]) for p in told["points"]}, {12})
         self.good("plot", path, "-o", figure)
         self.good("plot", path, "--quantity", "multipliers", "-o", figure)
+        self.assertIn("1 branch, ", self.good("branch", "--kind", "counter", "--over", "drive.frequency=14.9Hz:15Hz"))
 
     def test_refusals(self):
         for words, *sets in (("give plate.bowl_radius", "plate.shape=bowl"),
