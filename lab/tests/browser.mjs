@@ -579,6 +579,7 @@ const tests = {
         assert.deepEqual([(await state()).samples, (await state()).f], [lines.length - 1, 14.5]);
         await click(page, "#restart");
         await page.evaluate(() => window.festoonLab.lab.advance(100));
+        await page.waitForFunction((end) => Math.abs(document.querySelector("#time").max - end) < 1e-9, {}, Number(lines.at(-1)[0]));
         await page.$eval("#time", (slider) => {
             slider.value = slider.max / 2;
             slider.dispatchEvent(new Event("input", { bubbles: true }));

@@ -212,6 +212,6 @@ def sweep(
             )
     made = _in_memory(grid, bead._map, count, lanes, portable, progress)
     made._seed = seed
-    if made.size and made.failed.all():
+    if made.size and all(row["done"] and row["status"] > lib.FST_OK for row in made._rows):
         _warn_of_failures(f"{made.status.flat[0]}: {made.reason.flat[0]}")
     return made

@@ -244,10 +244,9 @@ static void write_scene(FILE *out, const fst_params *params, int commented)
             write_limits(out, info);
         }
         const char *name = info->key + group_length + 1;
-        if (value[0])
-            (void)fprintf(out, "  %s: %s\n", name, value);
-        else
-            (void)fprintf(out, "  # %s:\n", name);
+        /* A kappa that nobody gave stays so in a scene that people edit: it belongs to the default's bead alone. */
+        const int given = strcmp(info->key, "model.kappa") != 0 || !commented || params->notes.kappa_given;
+        (void)fprintf(out, "  %s%s:%s%s\n", value[0] && given ? "" : "# ", name, value[0] ? " " : "", value);
     }
     write_lists(out, params);
     write_beads(out, params, commented);
