@@ -219,6 +219,14 @@ static void end_group(FILE *out, const fst_params *params, const char *group, in
     write_parts(out, params);
 }
 
+/* Whether kappa was given, also by a program that wrote it into the struct.  One that nobody gave stays so in a scene that
+ * people edit: it belongs to the default's bead alone. */
+static int kappa_is_given(const fst_params *params)
+{
+    fst_params settled = *params;
+    return fst_params_settle(&settled, NULL) != FST_OK || settled.notes.kappa_given;
+}
+
 static void write_scene(FILE *out, const fst_params *params, int commented)
 {
     char group[32] = "", value[VALUE_SIZE];
@@ -244,8 +252,7 @@ static void write_scene(FILE *out, const fst_params *params, int commented)
             write_limits(out, info);
         }
         const char *name = info->key + group_length + 1;
-        /* A kappa that nobody gave stays so in a scene that people edit: it belongs to the default's bead alone. */
-        const int given = strcmp(info->key, "model.kappa") != 0 || !commented || params->notes.kappa_given;
+        const int given = strcmp(info->key, "model.kappa") != 0 || !commented || kappa_is_given(params);
         (void)fprintf(out, "  %s%s:%s%s\n", value[0] && given ? "" : "# ", name, value[0] ? " " : "", value);
     }
     write_lists(out, params);

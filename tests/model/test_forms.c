@@ -90,7 +90,7 @@ static void check_alike(const fst_params *actual, const fst_params *expected)
         (void)fst_params_get(expected, i, two, sizeof two);
         assert_string_equal(one, two);
     }
-    char *texts[] = {fst_scene_text(actual, 0), fst_scene_text(expected, 0), fst_scene_json(actual),
+    char *texts[] = {fst_scene_text(actual, 1), fst_scene_text(expected, 1), fst_scene_json(actual),
                      fst_scene_json(expected)};
     assert_string_equal(texts[0], texts[1]);
     assert_string_equal(texts[2], texts[3]);
