@@ -53,18 +53,13 @@ class _Found(Shown, Printed):
         return Table(dims, coords, columns, about(self.setup.scene()))
 
 
-class BeadsOrbit(_Found):
-    """A periodic orbit of several beads in the magnet's frame, with the same contacts all the way."""
+class _Orbit(_Found):
+    """What motions that repeat themselves have in common."""
 
     @property
     def period(self) -> float:
-        """Of the orbit [1/gamma]."""
+        """After which the motion repeats itself [1/gamma]: of a world that of the drive."""
         return float(self._told["period"])
-
-    @property
-    def symmetry(self) -> str:
-        """exchange: two beads change places in half a period; S2: the image of one is the orbit itself; or none."""
-        return str(self._told["symmetry"])
 
     @property
     def stable(self) -> bool:
@@ -73,8 +68,17 @@ class BeadsOrbit(_Found):
 
     @property
     def multipliers(self) -> Any:
-        """The largest first; of half a period where that exchanges beads."""
+        """Of the directions in which beads can move, the largest first; of half a period where that exchanges beads."""
         return _numbers(self._told["multipliers"])
+
+
+class BeadsOrbit(_Orbit):
+    """A periodic orbit of several beads in the magnet's frame, with the same contacts all the way."""
+
+    @property
+    def symmetry(self) -> str:
+        """exchange: two beads change places in half a period; S2: the image of one is the orbit itself; or none."""
+        return str(self._told["symmetry"])
 
     @property
     def beads(self) -> List[Dict[str, Any]]:
@@ -199,28 +203,13 @@ class BeadsBranch(_Found):
         return f"BeadsBranch: {len(self.values)} points over {self.parameter}; {specials or 'no special point'}"
 
 
-class WorldOrbit(_Found):
+class WorldOrbit(_Orbit):
     """A motion of one bead that repeats itself with the drive, in fields of the laboratory or under an unsteady magnet."""
-
-    @property
-    def period(self) -> float:
-        """Of the drive [1/gamma]."""
-        return float(self._told["period"])
 
     @property
     def frame(self) -> str:
         """Whose axes the state is on: turning or laboratory."""
         return str(self._told["frame"])
-
-    @property
-    def stable(self) -> bool:
-        """Whether every multiplier is inside the unit circle."""
-        return bool(self._told["stable"])
-
-    @property
-    def multipliers(self) -> Any:
-        """Of the directions in which the bead can move, the largest first."""
-        return _numbers(self._told["multipliers"])
 
     @property
     def state(self) -> Any:

@@ -20,7 +20,7 @@ typedef struct fst_sweep_slice {
     fst_sweep_axis axes[FST_AXIS_LIMIT];
     int64_t start;   /* its first point; the axes' strides lead to the others */
     char words[192]; /* the values of others that have several, "friction.mu 0.2"; "": there are none */
-    const struct fst_sweep_slice *whole; /* of which it is one curve, or NULL */
+    const struct fst_sweep_slice *whole; /* the family whose curve it is; NULL: it is alone */
 } fst_sweep_slice;
 
 /* Add to `about` what is the same at all points, and how many of the slice were computed. */

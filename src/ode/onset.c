@@ -139,7 +139,7 @@ static void states_around(const pushed_bead *b, const double *state, double apar
             around[side][i] += 0.25 * apart * (slopes[1][i] - slopes[0][i]); /* y'' apart^2/2 */
 }
 
-/* The lag of a motion in this state; `apart` is the time between the states of which it is made. */
+/* The lag of a motion in this state.  Its rates come from the states `apart` before and after it, which `at` tells. */
 static fst_lag_double lag_in(const pushed_bead *b, double apart, const double *state, leaning at[3])
 {
     double around[2][FST_NUMBERS];

@@ -184,7 +184,7 @@ def test_json_in_the_units_of_a_laboratory():
 
 
 def test_orbits_in_all_units():
-    """Every number of a report is the same in SI, and those that --json has in SI are those of the scaled keys."""
+    """A report says the same in each of its units, and the SI keys of --json are the scaled ones in SI."""
     ask = lambda *words: subprocess.run([FESTOON, *words], capture_output=True, text=True, check=True).stdout
     swung = ("--set", "drive.waveform=oscillating", "--set", "drive.amplitude=20 deg", "--set", "drive.frequency=30",
              "--set", "start.spin=rest", "--set", "start.phi=5")
