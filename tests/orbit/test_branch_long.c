@@ -102,6 +102,33 @@ static void doubled_period_is_followed(const fst_branch *b)
             assert_int_equal(b->ends[i].type, FST_END_RANGE);
 }
 
+/* With dry friction a branch is followed from an orbit that attracts on one side; where the orbit repels on both, by another
+ * multiplier, the place is listed and no more. */
+static void what_repels_is_listed_only(void **state)
+{
+    (void)state;
+    fst_params params = fst_default_params();
+    assert_int_equal(fst_params_set(&params, "friction.law", "coulomb", NULL), FST_OK);
+    assert_int_equal(fst_params_set(&params, "friction.mu", "0.1", NULL), FST_OK);
+    fst_branch_options o = over_omega(FST_BRANCH_COUNTER, 9.45, 11.0);
+    o.key = "drive.frequency";
+    fst_branch b = followed(&params, &o);
+    int born = 0, listed = 0;
+    for (size_t i = 0; i < b.special_count; ++i) {
+        const fst_special *s = &b.specials[i];
+        if (s->type != FST_SPECIAL_PERIOD_DOUBLING && s->type != FST_SPECIAL_PITCHFORK)
+            continue;
+        int repels = 0;
+        for (int k = 0; k < s->at.multipliers; ++k)
+            repels |= hypot(s->at.multiplier_re[k], s->at.multiplier_im[k]) > 1.01;
+        assert_true(!repels || s->born < 0);
+        listed += repels;
+        born += s->born >= 0;
+    }
+    assert_true(listed > 0 && born > 0);
+    fst_branch_free(&b);
+}
+
 /* Over two blocks orbits that rest turn round where the greatest multiplier passes 1.  Their multipliers are known to
  * 1e-7 alone, and the point must not be lost in that. */
 static void a_fold_of_orbits_that_rest(void **state)
@@ -158,6 +185,7 @@ int main(void)
         cmocka_unit_test(specials_do_not_depend_on_tolerances),
         cmocka_unit_test(branches_do_not_jump),
         cmocka_unit_test(hopf_points_agree_between_orbits_and_equilibria),
+        cmocka_unit_test(what_repels_is_listed_only),
         cmocka_unit_test(a_fold_of_orbits_that_rest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
