@@ -1,12 +1,13 @@
 /* hdf5_module.c - trajectories in HDF5, as the module festoon-hdf5.so.
  *
- * The file: one extendible data set of doubles for each column, with the attributes `unit` and `description`;
- * at the root the attributes `program`, `version`, `units`, `scene` (YAML), `result` (JSON, as `festoon run
+ * The file: one extendible data set of doubles for each column, with the attributes `unit` and `description`, and
+ * of a sweep one of texts; at the root the attributes `program`, `version`, `units`, `scene` (YAML), `result` (JSON, as `festoon run
  * --json`) and `complete` (a boolean).
  */
 #include "io/hdf5_module.h"
 
 #include <hdf5.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,6 +16,9 @@
 
 /* Rows in a chunk. */
 #define CHUNK 4096
+
+/* Bytes of a text of a row, with its end. */
+#define TEXT 256
 
 #define PROGRAM "festoon"
 
@@ -26,23 +30,34 @@
 struct fst_hdf5_writer {
     hid_t file;
     fst_hdf5_image image;
-    hid_t *sets; /* the data set of each column */
+    hid_t *sets; /* the data set of each column, and that of texts */
     const fst_column_info *const *columns;
     int count;
-    hsize_t written;  /* rows in the file */
-    size_t pending;   /* rows in the buffer */
-    double *buffer;   /* count columns of CHUNK rows */
+    hsize_t written; /* rows in the file */
+    size_t pending;  /* rows in the buffer */
+    double *buffer;  /* count columns of CHUNK rows */
+    char *texts;     /* CHUNK texts; NULL: rows have none */
+    hid_t text_type;
     const char *name; /* the name that the file will have, for messages */
 };
 
 /* ---------------------------------------------------------------- attributes */
 
+/* Negative: HDF5 cannot make it. */
+static hid_t type_of_text(size_t size)
+{
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    if (type >= 0 && H5Tset_size(type, size) >= 0 && H5Tset_cset(type, H5T_CSET_UTF8) >= 0)
+        return type;
+    fst_hdf5_close(type, -1);
+    return -1;
+}
+
 static int write_text(hid_t object, const char *name, const char *text)
 {
-    hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
-    int failed = H5Tset_size(type, strlen(text) + 1) < 0 || H5Tset_cset(type, H5T_CSET_UTF8) < 0;
+    hid_t type = type_of_text(strlen(text) + 1), space = H5Screate(H5S_SCALAR);
     hid_t attribute = H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
-    failed = failed || attribute < 0 || H5Awrite(attribute, type, text) < 0;
+    int failed = attribute < 0 || H5Awrite(attribute, type, text) < 0;
     failed = (attribute >= 0 && H5Aclose(attribute) < 0) || failed;
     fst_hdf5_close(type, space);
     return failed;
@@ -130,7 +145,7 @@ static hid_t storage_of_column(void)
     return -1;
 }
 
-static int create_columns(fst_hdf5_writer *writer)
+static int create_columns(fst_hdf5_writer *writer, const char *texts)
 {
     const hsize_t none = 0, unlimited = H5S_UNLIMITED;
     hid_t space = H5Screate_simple(1, &none, &unlimited);
@@ -145,6 +160,12 @@ static int create_columns(fst_hdf5_writer *writer)
         failed =
             set < 0 || write_text(set, "unit", column->unit) || write_text(set, "description", column->doc);
     }
+    if (texts && !failed) {
+        writer->text_type = type_of_text(TEXT);
+        writer->sets[writer->count] =
+            H5Dcreate2(writer->file, texts, writer->text_type, space, H5P_DEFAULT, storage, access);
+        failed = writer->sets[writer->count] < 0;
+    }
     if (access >= 0)
         (void)H5Pclose(access);
     if (storage >= 0)
@@ -157,9 +178,10 @@ static int create_columns(fst_hdf5_writer *writer)
 static int close_file(fst_hdf5_writer *writer)
 {
     int failed = 0;
-    for (int i = 0; i < writer->count; ++i)
-        if (writer->sets && writer->sets[i] >= 0)
+    for (int i = 0; i <= writer->count; ++i)
+        if (writer->sets[i] >= 0)
             failed = H5Dclose(writer->sets[i]) < 0 || failed;
+    fst_hdf5_close(writer->text_type, -1);
     return (writer->file >= 0 && H5Fclose(writer->file) < 0) || failed;
 }
 
@@ -168,11 +190,12 @@ static void free_writer(fst_hdf5_writer *writer)
     free(writer->image.bytes);
     free(writer->sets);
     free(writer->buffer);
+    free(writer->texts);
     free(writer);
 }
 
-static fst_status create(const char *name, const fst_column_info *const *columns, int count, const char *scene,
-                         fst_hdf5_writer **out, fst_error *error)
+static fst_status create(const char *name, const fst_column_info *const *columns, int count, const char *texts,
+                         const char *scene, fst_hdf5_writer **out, fst_error *error)
 {
     *out = NULL;
     fst_hdf5_writer *writer = calloc(1, sizeof *writer);
@@ -180,23 +203,23 @@ static fst_status create(const char *name, const fst_column_info *const *columns
         return fst_fail(error, FST_NO_MEMORY, name, "out of memory");
     writer->columns = columns;
     writer->count = count;
-    writer->file = -1;
+    writer->file = writer->text_type = -1;
     writer->name = name;
-    writer->sets = calloc((size_t)count, sizeof *writer->sets);
+    writer->sets = calloc((size_t)count + 1, sizeof *writer->sets);
     writer->buffer = malloc((size_t)count * CHUNK * sizeof *writer->buffer);
-    if (!writer->sets || !writer->buffer) {
-        writer->count = 0; /* no data set is open yet */
+    writer->texts = texts ? malloc((size_t)CHUNK * TEXT) : NULL;
+    if (!writer->sets || !writer->buffer || (texts && !writer->texts)) {
         free_writer(writer);
         return fst_fail(error, FST_NO_MEMORY, name, "out of memory");
     }
-    for (int i = 0; i < count; ++i)
+    for (int i = 0; i <= count; ++i)
         writer->sets[i] = -1;
     fst_hdf5_told before = fst_hdf5_quiet();
     writer->file = fst_hdf5_new(&writer->image);
     int failed = writer->file < 0 || write_text(writer->file, "program", PROGRAM) ||
                  write_text(writer->file, "version", fst_version()) ||
                  write_text(writer->file, "units", UNITS) || write_text(writer->file, "scene", scene) ||
-                 create_columns(writer);
+                 create_columns(writer, texts);
     if (failed) {
         fail_write(writer, error);
         (void)close_file(writer);
@@ -217,12 +240,14 @@ static int flush_rows(fst_hdf5_writer *writer)
     const hsize_t start = writer->written, added = writer->pending, total = start + added;
     hid_t memory = H5Screate_simple(1, &added, NULL);
     int failed = memory < 0;
-    for (int i = 0; i < writer->count && !failed; ++i) {
+    for (int i = 0; i < writer->count + (writer->texts != NULL) && !failed; ++i) {
+        const int is_text = i == writer->count;
         failed = H5Dset_extent(writer->sets[i], &total) < 0;
         hid_t space = failed ? -1 : H5Dget_space(writer->sets[i]);
-        failed = space < 0 || H5Sselect_hyperslab(space, H5S_SELECT_SET, &start, NULL, &added, NULL) < 0 ||
-                 H5Dwrite(writer->sets[i], H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT,
-                          writer->buffer + (size_t)i * CHUNK) < 0;
+        failed =
+            space < 0 || H5Sselect_hyperslab(space, H5S_SELECT_SET, &start, NULL, &added, NULL) < 0 ||
+            H5Dwrite(writer->sets[i], is_text ? writer->text_type : H5T_NATIVE_DOUBLE, memory, space,
+                     H5P_DEFAULT, is_text ? (void *)writer->texts : writer->buffer + (size_t)i * CHUNK) < 0;
         fst_hdf5_close(-1, space);
     }
     fst_hdf5_close(-1, memory);
@@ -231,10 +256,15 @@ static int flush_rows(fst_hdf5_writer *writer)
     return failed;
 }
 
-static fst_status row(fst_hdf5_writer *writer, const double *values, fst_error *error)
+static fst_status row(fst_hdf5_writer *writer, const double *values, const char *text, fst_error *error)
 {
     for (int i = 0; i < writer->count; ++i)
         writer->buffer[(size_t)i * CHUNK + writer->pending] = values[i];
+    if (writer->texts) { /* bytes behind the end of a text are zeros */
+        char *place = writer->texts + writer->pending * TEXT;
+        memset(place, 0, TEXT);
+        (void)snprintf(place, TEXT, "%s", text ? text : "");
+    }
     if (++writer->pending < CHUNK)
         return FST_OK;
     fst_hdf5_told before = fst_hdf5_quiet();

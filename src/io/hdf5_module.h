@@ -28,10 +28,10 @@ typedef struct fst_hdf5_module_table {
     size_t (*most)(void);
 
     /* Begin a trajectory, which is made in memory; `name` stands for it in messages.  The name and the columns
-     * are kept, not copied. */
-    fst_status (*create)(const char *name, const fst_column_info *const *columns, int count, const char *scene,
-                         fst_hdf5_writer **writer, fst_error *error);
-    fst_status (*row)(fst_hdf5_writer *writer, const double *values, fst_error *error);
+     * are kept, not copied.  Where `texts` is not NULL, each row has a text in a column of this name. */
+    fst_status (*create)(const char *name, const fst_column_info *const *columns, int count, const char *texts,
+                         const char *scene, fst_hdf5_writer **writer, fst_error *error);
+    fst_status (*row)(fst_hdf5_writer *writer, const double *values, const char *text, fst_error *error);
     /* Add the last rows and the attributes `result` (JSON or NULL) and `complete`, and write the file to a
      * stream, whose failures are the caller's to find.  The writer is gone afterwards, also on failure. */
     fst_status (*finish)(fst_hdf5_writer *writer, const char *result, int complete, FILE *out,

@@ -56,7 +56,7 @@ static fst_status write_head(fst_rows_file *file, const fst_params *scene, int o
         return no_memory(file->whole.path, error);
     fst_status status = FST_OK;
     if (file->module)
-        status = file->module->create(file->whole.path, columns, file->count, text, &file->writer, error);
+        status = file->module->create(file->whole.path, columns, file->count, NULL, text, &file->writer, error);
     else
         fst_csv_begin(file->whole.stream, of_beads, text, columns, file->count, file->units);
     free(text);
@@ -84,7 +84,7 @@ fst_status fst_rows_append(fst_rows_file *file, fst_error *error)
     for (int i = 0; i < file->count && file->factors; ++i)
         file->values[i] *= file->factors[i];
     if (file->writer)
-        return file->module->row(file->writer, file->values, error);
+        return file->module->row(file->writer, file->values, NULL, error);
     fst_csv_row(file->whole.stream, file->values, file->count);
     if (ferror(file->whole.stream))
         return fst_fail(error, FST_IO, file->whole.path, "writing this file failed: is the disk full?");

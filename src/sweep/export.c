@@ -218,7 +218,7 @@ typedef struct hdf5_columns {
     const fst_column_info **pointers;
     int *places; /* the columns of the table that are exported */
     double *values;
-    int count;
+    int count, reason; /* `reason`: the place of the free texts */
 } hdf5_columns;
 
 static void describe(const char *name, fst_column_info *info)
@@ -255,8 +255,10 @@ static int list_columns(exporter *e, hdf5_columns *c)
         const char *type = sqlite3_column_decltype(e->row, i);
         if (!name || !type)
             return 0;
-        if (strcmp(type, "TEXT") == 0 && !codes_of(name))
-            continue; /* the reason is free text */
+        if (strcmp(type, "TEXT") == 0 && !codes_of(name)) {
+            c->reason = i;
+            continue;
+        }
         describe(name, &c->infos[c->count]);
         c->pointers[c->count] = &c->infos[c->count];
         c->places[c->count++] = i;
@@ -287,14 +289,17 @@ static fst_status fill_hdf5(exporter *e, const fst_hdf5_module_table *module, co
 {
     const char *scene = fst_identity_text(&e->file.lines, "scene");
     fst_hdf5_writer *writer = NULL;
-    fst_status status = module->create(file->path, c->pointers, c->count, scene ? scene : "", &writer, error);
+    fst_status status =
+        module->create(file->path, c->pointers, c->count, "reason", scene ? scene : "", &writer, error);
     int more;
     while (status == FST_OK && (status = fst_sweep_rows_next(&e->rows, &more, error)) == FST_OK && more) {
         for (int i = 0; i < c->count && status == FST_OK; ++i)
             if (!hdf5_value(e->row, c->places[i], &c->values[i]))
                 status = fail_memory(e, error);
+        char *reason = status == FST_OK ? tame_text(e->row, c->reason) : NULL;
         if (status == FST_OK)
-            status = module->row(writer, c->values, error);
+            status = module->row(writer, c->values, reason, error);
+        free(reason);
     }
     if (writer && status == FST_OK)
         status =
@@ -313,7 +318,7 @@ static fst_status export_hdf5(exporter *e, const char *out, fst_error *error)
     fst_status status = fst_load_hdf5_module(&module, out, error);
     if (status != FST_OK)
         return status;
-    hdf5_columns c = {NULL, NULL, NULL, NULL, 0};
+    hdf5_columns c = {.count = 0};
     fst_whole_file file = {.path = NULL};
     status = list_columns(e, &c) ? fst_whole_file_open(&file, out, error)
                                  : fst_fail(error, FST_NO_MEMORY, out, "out of memory");

@@ -20,7 +20,7 @@ class Hdf5:
         else:
             raise unittest.SkipTest("no shared library of HDF5")
         self.library.H5open()
-        for function in ("H5Fopen", "H5Dopen2", "H5Oopen", "H5Dget_space", "H5Aopen", "H5Aget_type"):
+        for function in ("H5Fopen", "H5Dopen2", "H5Oopen", "H5Dget_space", "H5Dget_type", "H5Aopen", "H5Aget_type"):
             getattr(self.library, function).restype = ctypes.c_int64
         self.library.H5Sget_simple_extent_npoints.restype = ctypes.c_int64
         self.library.H5Lget_name_by_idx.restype = ctypes.c_ssize_t
@@ -64,6 +64,18 @@ class Hdf5:
         self.library.H5Sclose(space)
         self.library.H5Dclose(data_set)
         return list(values)
+
+    def texts(self, name):
+        """A data set of texts of a fixed length."""
+        data_set = ctypes.c_int64(self.library.H5Dopen2(self.file, name.encode(), ctypes.c_int64(0)))
+        space = ctypes.c_int64(self.library.H5Dget_space(data_set))
+        kind = ctypes.c_int64(self.library.H5Dget_type(data_set))
+        size, everything = self.library.H5Tget_size(kind), ctypes.c_int64(0)
+        values = ctypes.create_string_buffer(size * self.library.H5Sget_simple_extent_npoints(space))
+        assert self.library.H5Dread(data_set, kind, everything, everything, everything, values) >= 0
+        for close, handle in (("H5Tclose", kind), ("H5Sclose", space), ("H5Dclose", data_set)):
+            getattr(self.library, close)(handle)
+        return [values.raw[i:i + size].split(b"\0")[0].decode() for i in range(0, len(values), size)]
 
     def attribute(self, name, key):
         """An attribute with a text, of a data set or, if name is None, of the file."""

@@ -294,7 +294,7 @@ static void write_odd_file(const char *path, int hdf5, const char *name, double 
         columns[i] = fst_column_at(i);
     if (hdf5) {
         assert_int_equal(fst_load_hdf5_module(&module, path, &error), FST_OK);
-        assert_int_equal(module->create(path, columns, FST_COLUMN_COUNT, scene, &writer, &error), FST_OK);
+        assert_int_equal(module->create(path, columns, FST_COLUMN_COUNT, NULL, scene, &writer, &error), FST_OK);
     } else {
         fst_csv_begin(out, 0, scene, columns, FST_COLUMN_COUNT, NULL);
     }
@@ -304,7 +304,7 @@ static void write_odd_file(const char *path, int hdf5, const char *name, double 
         if (i == 2)
             values[column(name)] = value;
         if (hdf5)
-            assert_int_equal(module->row(writer, values, &error), FST_OK);
+            assert_int_equal(module->row(writer, values, NULL, &error), FST_OK);
         else
             fst_csv_row(out, values, FST_COLUMN_COUNT);
     }
@@ -381,11 +381,11 @@ static void write_old_file(const char *path, int hdf5, int count)
         columns[i] = fst_column_at(i);
     char *scene = fst_scene_text(&params, 0);
     assert_int_equal(fst_load_hdf5_module(&module, path, &error), FST_OK);
-    assert_int_equal(module->create(path, columns, count, scene, &writer, &error), FST_OK);
+    assert_int_equal(module->create(path, columns, count, NULL, scene, &writer, &error), FST_OK);
     for (int i = 0; i < 3; i++) {
         const fst_sample sample = sample_at(i);
         fst_column_values(&sample, values);
-        assert_int_equal(module->row(writer, values, &error), FST_OK);
+        assert_int_equal(module->row(writer, values, NULL, &error), FST_OK);
     }
     FILE *out = fopen(path, "w");
     assert_non_null(out);

@@ -263,7 +263,8 @@ class Exports(Case):
         self.good("sweep", *SHORT, "--over", "drive.frequency=9Hz:20Hz:6", "--over", "model.dynamics=rigid,farago2020",
                   "-o", self.path("a.db"))
         change(self.path("a.db"), "DELETE FROM rows WHERE point = 7",  # an incomplete sweep, with a run that failed
-               "UPDATE rows SET status = 'bad input', regime = NULL, mean_r = NULL WHERE point = 3")
+               "UPDATE rows SET status = 'bad input', regime = NULL, mean_r = NULL, reason = 'it broke' WHERE point = 3",
+               "UPDATE rows SET reason = NULL WHERE point = 4")
         status, _, err = festoon("export", self.path("a.db"), "--hdf5", "-o", self.path("a.h5"))
         if status == 1 and "HDF5" in err:
             self.skipTest("built without HDF5")
@@ -273,7 +274,10 @@ class Exports(Case):
         file = Hdf5(self.path("a.h5"))
         self.addCleanup(file.close)
         names = set(file.names())
-        self.assertEqual(set(rows[0]) - names, {"reason"})  # free text has no number
+        self.assertEqual(set(rows[0]), names)
+        names.remove("reason")
+        self.assertEqual(file.texts("reason"), [row["reason"] for row in rows])
+        self.assertEqual([row["reason"] for row in rows][3:5], ["it broke", ""])
         for name in names:
             codes = file.attribute(name, "description").split("|")
             column = file.column(name)
