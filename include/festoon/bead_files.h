@@ -21,10 +21,12 @@ FST_API char *fst_beads_json(const fst_params *scene, const fst_beads_result *re
 
 /* The same of what beads do for ever.  In a locked state `z` is a centre's height over that of the bead at rest on the
  * plate, and `state` has its numbers, Z over the plate's surface. */
-FST_API char *fst_beads_locked_json(const fst_params *scene, const fst_beads_locked *locked);
+FST_API char *fst_beads_locked_json(const fst_params *scene, const fst_beads_locked *locked,
+                                    fst_shown_units units);
 FST_API char *fst_beads_orbit_json(const fst_params *scene, const fst_beads_orbit *orbit,
                                    fst_shown_units units);
-FST_API char *fst_beads_branch_json(const fst_params *scene, const fst_beads_branch *branch);
+FST_API char *fst_beads_branch_json(const fst_params *scene, const fst_beads_branch *branch,
+                                    fst_shown_units units);
 
 /* ------------------------------------------------------------------ trajectories */
 

@@ -83,8 +83,9 @@ FST_API char *fst_scene_json(const fst_params *params);
 FST_API char *fst_orbit_json(const fst_params *params, const fst_orbit *orbit, const fst_orbit *others,
                              size_t count, fst_shown_units units);
 FST_API char *fst_levitation_json(const fst_params *params, const fst_levitation_list *list);
-FST_API char *fst_locked_json(const fst_params *params, double omega, const fst_locked_list *list);
-FST_API char *fst_branch_json(const fst_params *params, const fst_branch *branch);
+FST_API char *fst_locked_json(const fst_params *params, double omega, const fst_locked_list *list,
+                              fst_shown_units units);
+FST_API char *fst_branch_json(const fst_params *params, const fst_branch *branch, fst_shown_units units);
 FST_API char *fst_lyapunov_json(const fst_params *params, const fst_lyapunov *lyapunov);
 
 /* Write the JSON of a branch to a file, whole or not at all. */
@@ -367,7 +368,7 @@ FST_API fst_status fst_sweep_export(const char *path, fst_export_format format, 
                                     const fst_progress *progress, fst_error *error);
 
 /* Write chosen columns as CSV: the varied parameters and `keys` (count = 0: regime, mean_r, std_r,
- * mean_alpha_dot), in the wanted units, each name with its unit behind it: "mean_r [mm]"; and `status`: done,
+ * mean_alpha_dot; one key "all": every column), in the wanted units, each name with its unit behind it: "mean_r [mm]"; and `status`: done,
  * missing where there is no row, or why the run failed.  Fails where rows are damaged. */
 FST_API fst_status fst_sweep_export_keys(const char *path, const char *const *keys, int count,
                                          fst_shown_units units, const char *out, FILE *stream,

@@ -95,8 +95,12 @@ class Bead(Parameters):
         for key in sorted(given, key=lambda key: (key != "magnet.shape", key != "model.kappa")):
             if key == "magnet.parts":
                 self._set_parts(given[key])
+            elif key == "coils":
+                self._set_list(key, rows_in(given[key], key, "one a coil: [{'radius': 0.05, 'current': 1}, ...]"))
             elif key not in PARAMETERS and isinstance(given[key], (list, tuple, np.ndarray)):
                 self._set_list(key, given[key])
+            elif key not in PARAMETERS and lib.fst_param_find(f"{key}[0]".encode()) >= 0:
+                raise BadInput(key, f"it must be a list of numbers, as [0, 0, 1], not {given[key]!r}")
             else:
                 call(lib.fst_params_set, self._params, key.encode(), value_text(given[key], key).encode())
         for one, two in itertools.combinations(given, 2):

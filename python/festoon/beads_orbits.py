@@ -12,7 +12,7 @@ from ._pickled import Printed
 from ._progress import Progress
 from ._quantities import units_of
 from ._tabled import NUMBERS, Column, Shown, Table, about, numbers_of, scaled_columns, scales_of
-from .branches import range_of
+from .branches import SpecialPoint, range_of
 
 if TYPE_CHECKING:
     from .bead import Bead
@@ -136,7 +136,7 @@ class BeadsLocked(_Found):
         return f"BeadsLocked: {count} bead{'s' if count > 1 else ''}, {words}, power {self.power:.6g} l^2 gamma^3"
 
 
-class BeadsSpecial(Dict[str, Any]):
+class BeadsSpecial(Dict[str, Any], SpecialPoint):
     """A special point of such a branch: what the program prints of it, as items and attributes."""
 
     #: fold, hopf, contact, ...
@@ -278,7 +278,7 @@ def orbit(setup: "Bead", progress: Progress) -> BeadsOrbit:
 def locked(setup: "Bead", progress: Progress) -> BeadsLocked:
     """See Beads.locked()."""
     found = ffi.new("fst_beads_locked *")
-    return BeadsLocked(setup, _ask(setup, progress, "locked", lib.fst_beads_locked_scene, (found,), lib.fst_beads_locked_json))
+    return BeadsLocked(setup, _ask(setup, progress, "locked", lib.fst_beads_locked_scene, (found,), lib.fst_beads_locked_json, units_of("scaled")))
 
 
 def world_orbit(setup: "Bead", progress: Progress) -> WorldOrbit:
@@ -302,4 +302,4 @@ def branch(setup: "Bead", progress: Progress, ranges: Mapping[str, Any]) -> Bead
     key, (low, high) = next((known_key(name), range_of(known_key(name), value)) for name, value in ranges.items())
     found = ffi.gc(ffi.new("fst_beads_branch *"), lib.fst_beads_branch_free)
     asked = (key.encode(), low, high, found)
-    return BeadsBranch(setup, _ask(setup, progress, "branch", lib.fst_beads_branch_scene, asked, lib.fst_beads_branch_json))
+    return BeadsBranch(setup, _ask(setup, progress, "branch", lib.fst_beads_branch_scene, asked, lib.fst_beads_branch_json, units_of("scaled")))

@@ -26,8 +26,8 @@ from ._native import (
 )
 from ._pickled import Told, image_of, struct_of
 from ._progress import Progress
-from ._quantities import Scales, quantity
-from ._tabled import OF_PLATE, NUMBERS, Column, Shown, Table, about, numbers_of, scaled_columns
+from ._quantities import Scales, quantity, units_of
+from ._tabled import OF_PLATE, NUMBERS, Column, Shown, Table, Tabled, about, numbers_of, scaled_columns
 from .bead import Bead
 from .orbits import Path, _choose, _names, _Single
 from .runs import SYMMETRIES
@@ -52,8 +52,32 @@ UNITS = {text_of(row.name).replace("phi_deg", "bead_angle_deg"): text_of(row.uni
 UNITS.update(omega="gamma", height_mm="mm", circle_mm="mm", gap_mm="mm", position_m="m", w_per_s="1/s")
 
 
-class Special(_Single):
+class SpecialPoint(Tabled):
+    """What special points have in common: items that are attributes too, and a table of one row."""
+
+    def _table(self, units: Optional[str]) -> Table:
+        """The numbers and words, as the attributes have them."""
+        if units not in (None, "scaled"):
+            raise BadInput("units", "a special point is told in scaled units, its value in that of the parameter")
+        told = {name: self[name] for name in self.keys()}  # type: ignore[attr-defined, index]
+        return Table((), {}, {name: Column((), value, UNITS.get(name, "")) for name, value in told.items() if name not in ("at", "state")}, {})
+
+
+class Special(_Single, SpecialPoint, Mapping[str, Any]):
     """A special point of a branch: fold, pitchfork, period-doubling, hopf, ..."""
+
+    _NAMES = ("type", "parameter", "value", "omega", "branch", "criticality", "born", "state")
+
+    def __getitem__(self, name: str) -> Any:
+        if name not in self._NAMES:
+            raise KeyError(name)
+        return getattr(self, name)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._NAMES)
+
+    def __len__(self) -> int:
+        return len(self._NAMES)
 
     def __init__(self, special: Any, parameter: str, owner: Any) -> None:
         self._struct = self._special = special
@@ -230,7 +254,7 @@ class Branch(Shown, Told):
             Where there is no memory for it.
         """
         bead = self.bead or Bead()
-        text: Dict[str, Any] = json.loads(take_text(lib.fst_branch_json(bead._params, self._branch)))
+        text: Dict[str, Any] = json.loads(take_text(lib.fst_branch_json(bead._params, self._branch, units_of("scaled"))))
         return text
 
     def plot(self, y: str = "mean_r", **options: Any) -> Any:

@@ -330,7 +330,7 @@ class LockedStates(Shown, Told, Sequence[Locked]):
             Where there is no memory for it.
         """
         text: Dict[str, Any] = json.loads(
-            take_text(lib.fst_locked_json(self.bead._params, self.bead.omega, self._list))
+            take_text(lib.fst_locked_json(self.bead._params, self.bead.omega, self._list, units_of("scaled")))
         )
         return text
 

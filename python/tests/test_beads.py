@@ -221,6 +221,7 @@ def test_locked_and_branch():
     assert [special["type"] for special in branch.specials] == [special.type for special in branch.specials] == ["hopf", "hopf", "contact"]
     assert pickle.loads(pickle.dumps(branch.specials)) == branch.specials and not hasattr(branch.specials[0], "typ")
     assert abs(branch.specials[2].value - 255.27) < 0.01 and branch.parameter == "drive.frequency"
+    assert branch.specials[2].to_pandas()["value"][0] == branch.specials[2].value
     sways = (branch.values > branch.specials[0]["value"]) & (branch.values < branch.specials[1]["value"])
     assert (branch.stable != sways).all() and len(branch.points) == len(branch.values) and "hopf at 194.2" in repr(branch)
     with pytest.raises(fs.NoConvergence, match="no state in which they turn with the magnet"):

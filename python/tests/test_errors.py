@@ -101,6 +101,17 @@ def test_the_nearest_keyword_is_named(wrong, right):
         assert f"the nearest is {right} (festoon.schema() lists them all)" in caught.value.sentence
 
 
+@pytest.mark.parametrize("keyword", ["coils", "field__uniform", "start__position", "magnet__parts"])
+@pytest.mark.parametrize("value", [3, "3"])
+def test_a_list_is_wanted(keyword, value):
+    with pytest.raises(fs.BadInput) as caught:
+        fs.Bead(**{keyword: value})
+    assert caught.value.where == keyword.replace("__", ".")
+    assert "it must be a list of " in caught.value.sentence and f"not {value!r}" in caught.value.sentence
+    with pytest.raises(fs.BadInput):
+        fs.Bead(coils=[value])
+
+
 # ---------------------------------------------------------------------------------------- files
 
 

@@ -27,7 +27,14 @@ def test_orbit():
 def test_branch(tmp_path):
     branch = fs.Bead().branch(omega=(0.24, 0.28), kind="counter")
     assert [special.type for special in branch.specials] == ["pitchfork"]
-    assert branch.specials[0].value == pytest.approx(0.26885, abs=1e-4) and branch.complete
+    special = branch.specials[0]
+    assert special.value == pytest.approx(0.26885, abs=1e-4) and branch.complete
+    assert special["value"] == special.value and dict(special)["omega"] == special.omega and "state" in special
+    assert "phase" not in special and len(special) == 8
+    table = special.to_pandas()
+    assert (table["type"][0], table["value"][0]) == ("pitchfork", special.value)
+    with pytest.raises(fs.BadInput):
+        special.to_pandas("lab")
     assert branch.mean_r.shape == branch.value.shape == (len(branch),) and set(branch.stable) == {0, 1}
     assert np.all((branch.value >= 0.24 - 1e-12) & (branch.value <= 0.28 + 1e-12))
     assert sum(len(points) for points in branch) == len(branch)

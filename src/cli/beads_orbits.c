@@ -28,37 +28,63 @@ static void print_pairs(FILE *out, const char *title, const double *re, const do
     (void)fprintf(out, "\n");
 }
 
-static void print_locked(FILE *out, const fst_beads_locked *l)
+/* Eigenvalues; in other units than those that are given, with their unit. */
+static void print_rates(const page *p, const fst_beads_locked *l)
 {
+    const char *unit;
+    const double factor = fst_unit_shown("gamma", p->units, &p->scales, &unit);
+    double re[sizeof l->eigenvalue_re / sizeof *l->eigenvalue_re], im[sizeof re / sizeof *re];
+    char title[32];
+    for (int i = 0; i < l->eigenvalues; ++i) {
+        re[i] = factor * l->eigenvalue_re[i];
+        im[i] = factor * l->eigenvalue_im[i];
+    }
+    (void)snprintf(title, sizeof title, p->units == FST_SHOWN_AS_GIVEN ? "eigenvalues" : "eigenvalues (%s)",
+                   unit);
+    print_pairs(p->out, title, re, im, l->eigenvalues);
+}
+
+static void print_locked(const page *p, const fst_beads_locked *l)
+{
+    FILE *out = p->out;
+    const char *far, *strong, *powers;
+    const double length = fst_unit_shown("l", p->units, &p->scales, &far);
+    const double force = fst_unit_shown("l gamma^2", p->units, &p->scales, &strong);
+    const double power = fst_unit_shown("l^2 gamma^3", p->units, &p->scales, &powers);
+    char heads[2][16];
+    (void)snprintf(heads[0], sizeof heads[0], "r (%s)", far);
+    (void)snprintf(heads[1], sizeof heads[1], "z (%s)", far);
     (void)fprintf(out, l->count > 1 ? "%d beads turn with the magnet" : "the bead turns with the magnet",
                   l->count);
-    (void)fprintf(out, ", omega = %.10g: %s\n\n", l->omega, l->stable ? "stable" : "unstable");
-    (void)fprintf(out, "  %4s %14s %10s %14s  %26s %14s\n", "bead", "r (l)", "Phi (deg)", "z (l)", "n",
+    (void)fputs(", ", out);
+    print_omega(p, l->omega);
+    (void)fprintf(out, ": %s\n\n", l->stable ? "stable" : "unstable");
+    (void)fprintf(out, "  %4s %14s %10s %14s  %26s %14s\n", "bead", heads[0], "Phi (deg)", heads[1], "n",
                   "load (weights)");
     for (int i = 0; i < l->count; ++i) {
         const double *n = l->state[i] + 6;
-        (void)fprintf(out, "  %4d %14.10f %10.4f %14.10f  %8.5f %8.5f %8.5f %14.7g\n", i + 1, l->r[i],
+        (void)fprintf(out, "  %4d %14.10f %10.4f %14.10f  %8.5f %8.5f %8.5f %14.7g\n", i + 1, length * l->r[i],
                       isfinite(l->phi_deg[i]) ? unsigned_zero(l->phi_deg[i], 4) : 0.0,
-                      unsigned_zero(l->height[i], 10), unsigned_zero(n[0], 5), unsigned_zero(n[1], 5),
+                      unsigned_zero(length * l->height[i], 10), unsigned_zero(n[0], 5), unsigned_zero(n[1], 5),
                       unsigned_zero(n[2], 5), unsigned_zero(l->load_weights[i], ALL_DIGITS));
     }
     (void)fprintf(out, "\n");
     for (int k = 0; k < l->touch_count; ++k)
         if (l->touches[k].beads[1] >= 0)
-            (void)fprintf(out, "  beads %d and %d press each other with %.10g l gamma^2\n",
-                          l->touches[k].beads[0] + 1, l->touches[k].beads[1] + 1, l->touches[k].force);
-    (void)fprintf(out, "  power of the drive %.10g l^2 gamma^3%s\n", unsigned_zero(l->power, ALL_DIGITS),
+            (void)fprintf(out, "  beads %d and %d press each other with %.10g %s\n", l->touches[k].beads[0] + 1,
+                          l->touches[k].beads[1] + 1, force * l->touches[k].force, strong);
+    (void)fprintf(out, "  power of the drive %.10g %s%s\n", power * unsigned_zero(l->power, ALL_DIGITS), powers,
                   l->forces_unique ? ""
                                    : "; the contacts are more than the directions: the forces are one choice");
     if (l->free)
         (void)fprintf(out,
                       "  one of a continuum of states in %d directions: spins that nothing rubs are free\n",
                       l->free);
-    print_pairs(out, "eigenvalues", l->eigenvalue_re, l->eigenvalue_im, l->eigenvalues);
+    print_rates(p, l);
     (void)fprintf(out, "  residual %.2g\n", l->residual);
 }
 
-fst_status locked_beads(const arguments *given, const fst_params *scene, FILE *out, fst_error *error)
+fst_status locked_beads(const arguments *given, const fst_params *scene, const page *p, fst_error *error)
 {
     fst_beads_locked locked;
     progress_line line;
@@ -71,8 +97,8 @@ fst_status locked_beads(const arguments *given, const fst_params *scene, FILE *o
     if (status != FST_OK)
         return status;
     if (option_value(given, "json"))
-        return print_and_free(fst_beads_locked_json(scene, &locked), out, error);
-    print_locked(out, &locked);
+        return print_and_free(fst_beads_locked_json(scene, &locked, p->units), p->out, error);
+    print_locked(p, &locked);
     return FST_OK;
 }
 
@@ -118,20 +144,23 @@ fst_status orbit_of_beads(const arguments *given, const fst_params *scene, const
     return FST_OK;
 }
 
-static void print_branch(FILE *out, const fst_beads_branch *b)
+static void print_branch(const page *p, const fst_beads_branch *b)
 {
-    (void)fprintf(out, "%zu points over %s = %.10g to %.10g\n\nspecial points\n", b->point_count, b->key,
-                  b->from, b->to);
+    FILE *out = p->out;
+    const shown_parameter shown = show_parameter(p, b->key);
+    (void)fprintf(out, "%zu points over %s = %.10g to %.10g%s\n\nspecial points\n", b->point_count, b->key,
+                  shown.factor * b->from, shown.factor * b->to, shown.unit);
     for (size_t i = 0; i < b->special_count; ++i)
-        (void)fprintf(out, "  %-16s %s = %.12g\n", fst_special_name(b->specials[i].type), b->key,
-                      b->specials[i].value);
+        (void)fprintf(out, "  %-16s %s = %.12g%s\n", fst_special_name(b->specials[i].type), b->key,
+                      shown.factor * b->specials[i].value, shown.unit);
     (void)fprintf(out, "\nends\n");
     for (int i = 0; i < 2; ++i)
-        (void)fprintf(out, "  at %.10g: %s\n", b->ends[i].value, b->ends[i].reason);
+        (void)fprintf(out, "  at %.10g%s: %s\n", shown.factor * b->ends[i].value, shown.unit,
+                      b->ends[i].reason);
 }
 
 fst_status branch_of_beads(const arguments *given, const fst_params *scene, const fst_branch_options *o,
-                           FILE *out, fst_error *error)
+                           const page *p, fst_error *error)
 {
     static const char *const of_one[] = {"with", "follow", "output", "tolerance", "step", NULL};
     fst_beads_branch branch;
@@ -152,9 +181,9 @@ fst_status branch_of_beads(const arguments *given, const fst_params *scene, cons
     if (status != FST_OK)
         return status;
     if (option_value(given, "json"))
-        status = print_and_free(fst_beads_branch_json(scene, &branch), out, error);
+        status = print_and_free(fst_beads_branch_json(scene, &branch, p->units), p->out, error);
     else
-        print_branch(out, &branch);
+        print_branch(p, &branch);
     fst_beads_branch_free(&branch);
     return status;
 }

@@ -4,9 +4,9 @@
 
 #include "cli/command.h"
 
-fst_status locked_beads(const arguments *given, const fst_params *scene, FILE *out, fst_error *error);
+fst_status locked_beads(const arguments *given, const fst_params *scene, const page *p, fst_error *error);
 fst_status orbit_of_beads(const arguments *given, const fst_params *scene, const page *p, fst_error *error);
 fst_status branch_of_beads(const arguments *given, const fst_params *scene, const fst_branch_options *o,
-                           FILE *out, fst_error *error);
+                           const page *p, fst_error *error);
 
 #endif

@@ -10,6 +10,7 @@
 static const option options[] = {
     SCENE_OPTIONS,
     JSON_OPTION,
+    UNITS_JSON_OPTION,
     {"kind", '\0', FST_WORDS(FST_BRANCH_KINDS), FST_DOCS(FST_BRANCH_KINDS)},
     {"over", '\0', "KEY=LO:HI", "the parameter and its range, as in drive.omega=0.2:3"},
     {"with", '\0', "KEY=LO:HI",
@@ -126,62 +127,64 @@ static fst_status check_place(const char *path, fst_error *error)
                : fail(error, FST_IO, path, "cannot write here: %s", strerror(errno));
 }
 
-/* The unit of a parameter's values with a blank before it; omega is in units of gamma, other scaled numbers have
- * none. */
-static const char *unit_behind(const char *key, char text[16])
-{
-    const int row = fst_param_find(key);
-    const char *unit = strcmp(key, "drive.omega") == 0 ? "gamma"
-                       : row >= 0                      ? fst_unit_name(fst_param_at(row)->unit)
-                                                       : "";
-    (void)snprintf(text, 16, "%s%s", unit[0] && strcmp(unit, "1") != 0 ? " " : "",
-                   strcmp(unit, "1") != 0 ? unit : "");
-    return text;
-}
-
 /* Print a curve over two parameters: some of its points. */
-static void print_curve(FILE *out, const fst_branch *b, int curve)
+static void print_curve(const page *p, const fst_branch *b, int curve)
 {
+    const shown_parameter over = show_parameter(p, b->key), with = show_parameter(p, b->second_key);
     size_t first = 0, count = 0;
     for (size_t i = 0; i < b->point_count; ++i)
         if (b->points[i].branch == curve && count++ == 0)
             first = i;
-    char one[16], two[16];
-    (void)fprintf(out, "\n%s, curve %d: %zu points\n  %16s %16s\n  %16s %16s\n", fst_special_name(b->followed),
-                  curve, count, b->key, b->second_key, unit_behind(b->key, one),
-                  unit_behind(b->second_key, two));
+    (void)fprintf(p->out, "\n%s, curve %d: %zu points\n  %16s %16s\n  %16s %16s\n",
+                  fst_special_name(b->followed), curve, count, b->key, b->second_key, over.unit, with.unit);
     const size_t rows = count < 16 ? count : 16;
     for (size_t k = 0; k < rows; ++k) {
-        const fst_branch_point *p = &b->points[first + (rows > 1 ? k * (count - 1) / (rows - 1) : 0)];
-        (void)fprintf(out, "  %16.10f %16.10f  %s\n", unsigned_zero(p->value, 10), unsigned_zero(p->second, 10),
-                      p->stable ? "of a stable state" : "");
+        const fst_branch_point *at = &b->points[first + (rows > 1 ? k * (count - 1) / (rows - 1) : 0)];
+        (void)fprintf(p->out, "  %16.10f %16.10f  %s\n", unsigned_zero(over.factor * at->value, 10),
+                      unsigned_zero(with.factor * at->second, 10), at->stable ? "of a stable state" : "");
     }
 }
 
-static void print_branch(FILE *out, const fst_branch *b)
+/* omega of a special point, where it is not the parameter. */
+static void print_omega_there(const page *p, const fst_params *params, const fst_branch *b,
+                              const fst_special *s)
 {
-    char unit[16];
-    (void)unit_behind(b->key, unit);
+    const char *unit;
+    char text[32];
+    fst_params there = *params;
+    (void)snprintf(text, sizeof text, "%.17g", s->value);
+    (void)fst_params_set(&there, b->key, text, NULL);
+    const fst_scales scales = fst_scales_of(&there);
+    const double factor = fst_number_shown("omega", "gamma", p->units, &scales, &unit);
+    (void)fprintf(p->out, "  omega = %.12g %s", factor * s->omega, unit);
+}
+
+static void print_branch(const page *p, const fst_params *params, const fst_branch *b)
+{
+    FILE *out = p->out;
+    const shown_parameter shown = show_parameter(p, b->key);
+    const char *unit = shown.unit;
     if (b->second_key[0]) {
         (void)fprintf(out, "%d curve%s of %s points over %s and %s\n", b->branches, b->branches == 1 ? "" : "s",
                       fst_special_name(b->followed), b->key, b->second_key);
         for (int curve = 0; curve < b->branches; ++curve)
-            print_curve(out, b, curve);
+            print_curve(p, b, curve);
         (void)fprintf(out, "\nends\n");
         for (size_t i = 0; i < b->end_count; ++i)
             (void)fprintf(out, "  curve %d at %s = %.10g%s: %s\n", b->ends[i].branch, b->key,
-                          unsigned_zero(b->ends[i].value, ALL_DIGITS), unit, b->ends[i].reason);
+                          shown.factor * unsigned_zero(b->ends[i].value, ALL_DIGITS), unit, b->ends[i].reason);
         return;
     }
     (void)fprintf(out, "%d %s, %zu points over %s = %.10g to %.10g%s\n\nspecial points\n", b->branches,
                   b->branches == 1 ? "branch" : "branches", b->point_count, b->key,
-                  unsigned_zero(b->from, ALL_DIGITS), unsigned_zero(b->to, ALL_DIGITS), unit);
+                  shown.factor * unsigned_zero(b->from, ALL_DIGITS),
+                  shown.factor * unsigned_zero(b->to, ALL_DIGITS), unit);
     for (size_t i = 0; i < b->special_count; ++i) {
         const fst_special *s = &b->specials[i];
         (void)fprintf(out, "  %-16s %s = %.12g%s", fst_special_name(s->type), b->key,
-                      unsigned_zero(s->value, ALL_DIGITS), unit);
+                      shown.factor * unsigned_zero(s->value, ALL_DIGITS), unit);
         if (strcmp(b->key, "drive.omega") != 0)
-            (void)fprintf(out, "  omega = %.12g gamma", s->omega);
+            print_omega_there(p, params, b, s);
         (void)fprintf(out, "  branch %d%s\n", s->branch,
                       s->criticality > 0   ? "  supercritical"
                       : s->criticality < 0 ? "  subcritical"
@@ -190,7 +193,7 @@ static void print_branch(FILE *out, const fst_branch *b)
     (void)fprintf(out, "\nends\n");
     for (size_t i = 0; i < b->end_count; ++i)
         (void)fprintf(out, "  branch %d at %.10g%s: %s\n", b->ends[i].branch,
-                      unsigned_zero(b->ends[i].value, ALL_DIGITS), unit, b->ends[i].reason);
+                      shown.factor * unsigned_zero(b->ends[i].value, ALL_DIGITS), unit, b->ends[i].reason);
 }
 
 /* Warn if the bead of either end contradicts any material; one warning is enough. */
@@ -216,12 +219,17 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     fst_branch_options o;
     fst_branch branch;
     char keys[2][64];
-    fst_status status = read_scene(given, operand(given), &params, error);
+    page p = {.out = out};
+    fst_status status = read_units(given, &p.units, error);
+    if (status == FST_OK)
+        status = read_scene(given, operand(given), &params, error);
+    if (status == FST_OK)
+        p.scales = fst_scales_of(&params);
     if (status == FST_OK)
         status = read_options(given, keys, &o, error);
     const int of_one = o.kind == FST_BRANCH_LEVITATING || o.kind == FST_BRANCH_DRIVEN;
     if (status == FST_OK && (params.bead_count || (fst_key_of_world(&params) && !of_one)))
-        return branch_of_beads(given, &params, &o, out, error);
+        return branch_of_beads(given, &params, &o, &p, error);
     const char *path = option_value(given, "output");
     if (status == FST_OK && path)
         status = check_place(path, error);
@@ -250,9 +258,9 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
                            : "interrupted after %zu points, which -o FILE.json would have kept",
                       branch.point_count);
     if (status == FST_OK && option_value(given, "json"))
-        status = print_and_free(fst_branch_json(&params, &branch), out, error);
+        status = print_and_free(fst_branch_json(&params, &branch, p.units), out, error);
     else if (status == FST_OK)
-        print_branch(out, &branch);
+        print_branch(&p, &params, &branch);
     fst_branch_free(&branch);
     return status;
 }

@@ -139,6 +139,16 @@ typedef struct page {
 void print_shown(const page *p, const char *name, const double *values, int count, const char *key,
                  const char *unit);
 
+/* How the values of a parameter are shown: in SI times `factor`, with their unit behind a blank. */
+typedef struct shown_parameter {
+    double factor;
+    char unit[16];
+} shown_parameter;
+shown_parameter show_parameter(const page *p, const char *key);
+
+/* "omega = 0.215" as it is given; in other units "omega = 10.7 Hz". */
+void print_omega(const page *p, double omega);
+
 /* Read exactly `count` numbers separated by commas. */
 fst_status read_numbers(const char *option_name, const char *text, double *numbers, int count,
                         fst_error *error);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli/command.h"
+#include "cli/groups.h"
 
 fst_status fail(fst_error *error, fst_status code, const char *where, const char *format, ...)
 {
@@ -67,6 +68,34 @@ void print_shown(const page *p, const char *name, const double *values, int coun
     for (int i = 0; i < count; ++i)
         (void)fprintf(p->out, "%s %.12g", i ? "," : " ", unsigned_zero(factor * values[i], ALL_DIGITS));
     (void)fprintf(p->out, "%s%s\n", *shown_unit ? " " : "", shown_unit);
+}
+
+shown_parameter show_parameter(const page *p, const char *key)
+{
+    const int row = fst_param_find(key);
+    const char *unit = row >= 0 ? fst_unit_name(fst_param_at(row)->unit) : "";
+    shown_parameter shown = {1.0, ""};
+    int power = 0;
+    if (strcmp(key, "drive.omega") == 0)
+        shown.factor = fst_number_shown("omega", "gamma", p->units, &p->scales, &unit);
+    else if (strcmp(key, "drive.frequency") == 0 && p->units == FST_SHOWN_SCALED) {
+        shown.factor = TWO_PI * p->scales.time;
+        unit = "gamma";
+    } else if (row >= 0 && p->units == FST_SHOWN_LAB) {
+        unit = fst_unit_customary(fst_param_at(row)->unit, &power);
+        shown.factor = pow(10.0, power);
+    }
+    if (strcmp(unit, "1") != 0 && *unit)
+        (void)snprintf(shown.unit, sizeof shown.unit, " %s", unit);
+    return shown;
+}
+
+void print_omega(const page *p, double omega)
+{
+    const char *unit;
+    const double factor = fst_number_shown("omega", "gamma", p->units, &p->scales, &unit);
+    (void)fprintf(p->out, "omega = %.10g%s%s", factor * omega, p->units == FST_SHOWN_AS_GIVEN ? "" : " ",
+                  p->units == FST_SHOWN_AS_GIVEN ? "" : unit);
 }
 
 fst_status read_numbers(const char *option_name, const char *text, double *numbers, int count, fst_error *error)

@@ -42,32 +42,24 @@ static void print_sides(FILE *out, const fst_critical *c, const char *unit)
 }
 
 /* The unit in which speeds are shown; all of `c` are turned into it.  A frequency is one of SI already. */
-static const char *show_in(const page *p, fst_critical *c)
+static shown_parameter show_in(const page *p, fst_critical *c)
 {
-    const int is_frequency = strcmp(c->key, "drive.frequency") == 0;
-    const char *unit = "Hz";
-    double factor = 1.0;
-    if (is_frequency && p->units == FST_SHOWN_SCALED) {
-        factor = TWO_PI * p->scales.time;
-        unit = "gamma";
-    } else if (!is_frequency) {
-        factor = fst_number_shown("omega", "gamma", p->units, &p->scales, &unit);
-    }
+    const shown_parameter shown = show_parameter(p, c->key);
     double *const speeds[] = {&c->value, &c->error, &c->until, &c->parting, &c->parting_error};
     for (size_t i = 0; i < sizeof speeds / sizeof *speeds; ++i)
-        *speeds[i] *= factor;
+        *speeds[i] *= shown.factor;
     for (size_t i = 0; i < c->stretch_count; ++i) {
-        c->stretches[i].from *= factor;
-        c->stretches[i].to *= factor;
+        c->stretches[i].from *= shown.factor;
+        c->stretches[i].to *= shown.factor;
     }
-    return unit;
+    return shown;
 }
 
 static void print_critical(const page *p, fst_critical *c)
 {
     FILE *out = p->out;
-    char unit[16];
-    (void)snprintf(unit, sizeof unit, " %s", show_in(p, c));
+    const shown_parameter shown = show_in(p, c);
+    const char *unit = shown.unit;
     if (c->found) {
         (void)fputs("critical speed: ", out);
         print_with_error(out, c->value, c->error, unit);

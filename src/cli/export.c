@@ -6,7 +6,7 @@
 static const option options[] = {
     FST_EXPORTS(FORMAT){"quantity", '\0', "KEY,...",
                         "of CSV: only the varied parameters and these keys of festoon run, each with its unit, "
-                        "as in mean_r,std_r,regime"},
+                        "as in mean_r,std_r,regime, or all"},
     UNITS_OPTION,
     {"output", 'o', "FILE", "write to FILE instead of standard output"},
     {NULL, '\0', NULL, NULL},

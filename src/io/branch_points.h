@@ -5,8 +5,8 @@
 #include <stddef.h>
 
 typedef struct fst_point_number {
-    const char *key;
-    size_t offset; /* in fst_branch_point */
+    const char *key, *unit; /* "": the parameter's */
+    size_t offset;          /* in fst_branch_point */
 } fst_point_number;
 enum { FST_POINT_NUMBER_COUNT = 13 };
 extern const fst_point_number fst_point_numbers[FST_POINT_NUMBER_COUNT];

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "base/text.h"
 #include "io/json.h"
 
@@ -218,6 +219,36 @@ void fst_json_in_si(fst_json *json, const char *name, double value, const char *
         (void)snprintf(key, sizeof key, "%s%s", name, si_endings[k].ending);
         fst_json_real(json, key, unknown ? NAN : value * factor);
     }
+}
+
+void fst_json_scaled(fst_json *json, const char *key, double value, const char *unit, const fst_scales *si)
+{
+    fst_json_real(json, key, value);
+    if (si)
+        fst_json_in_si(json, key, value, unit, si);
+}
+
+void fst_json_rates(fst_json *json, const double *re, const double *im, int count, const fst_scales *si)
+{
+    fst_json_pairs(json, "eigenvalues", re, im, count);
+    if (!si)
+        return;
+    fst_json_open(json, "eigenvalues_per_s", '[');
+    for (int i = 0; i < count; ++i)
+        fst_json_reals(json, NULL, (const double[]){re[i] / si->time, im[i] / si->time}, 2);
+    fst_json_close(json);
+}
+
+fst_scales fst_json_scales_at(const fst_params *params, const char *const keys[2], const double values[2])
+{
+    fst_params there = *params;
+    for (int i = 0; i < 2; ++i) {
+        char text[40];
+        (void)fst_number_write(text, sizeof text, values[i]);
+        if (keys[i] && *keys[i])
+            (void)fst_params_set(&there, keys[i], text, NULL);
+    }
+    return fst_scales_of(&there);
 }
 
 int fst_json_with_si(fst_shown_units units)

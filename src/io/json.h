@@ -19,6 +19,15 @@ void fst_json_scene(fst_json *json, const fst_params *params);
  * counterpart: nothing. */
 void fst_json_in_si(fst_json *json, const char *name, double value, const char *unit, const fst_scales *scales);
 
+/* A number; and in SI where `si` is not NULL. */
+void fst_json_scaled(fst_json *json, const char *key, double value, const char *unit, const fst_scales *si);
+
+/* Eigenvalues of a motion, in gamma; and in 1/s where `si` is not NULL. */
+void fst_json_rates(fst_json *json, const double *re, const double *im, int count, const fst_scales *si);
+
+/* The scaled units of a scene in which up to two parameters (NULL, "": none) have these values. */
+fst_scales fst_json_scales_at(const fst_params *params, const char *const keys[2], const double values[2]);
+
 /* Whether numbers in SI stand beside the scaled ones. */
 int fst_json_with_si(fst_shown_units units);
 

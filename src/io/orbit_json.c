@@ -86,33 +86,41 @@ char *fst_orbit_json(const fst_params *params, const fst_orbit *orbit, const fst
     return fst_json_end(&json, JSON_INDENT(INDENT));
 }
 
-static void put_rolling(fst_json *json, const char *key, const fst_rolling_lock *l)
+/* A state of two or three axes; and in m, m/s and rad/s where `si` is not NULL. */
+static void put_state(fst_json *json, const double *state, int axes, const fst_scales *si)
+{
+    fst_json_reals(json, "state", state, 2 * axes + 6);
+    if (si)
+        fst_json_state_si(json, "state_si", state, axes, si);
+}
+
+static void put_rolling(fst_json *json, const char *key, const fst_rolling_lock *l, const fst_scales *si)
 {
     fst_json_open(json, key, '{');
-    fst_json_real(json, "r", l->r);
+    fst_json_scaled(json, "r", l->r, "l", si);
     fst_json_real(json, "phi_deg", l->bead_angle_deg);
     fst_json_reals(json, "n", l->state + FST_NX, 3);
     fst_json_reals(json, "w", l->state + FST_WX, 3);
     fst_json_real(json, "use", l->use);
     fst_json_text(json, "end", fst_rolling_end_name(l->end));
-    fst_json_reals(json, "state", l->state, FST_STATE_SIZE);
+    put_state(json, l->state, 2, si);
     fst_json_close(json);
 }
 
-static void put_locked(fst_json *json, const fst_locked *l)
+static void put_locked(fst_json *json, const fst_locked *l, const fst_scales *si)
 {
     fst_json_open(json, NULL, '{');
-    fst_json_real(json, "r", l->r);
+    fst_json_scaled(json, "r", l->r, "l", si);
     fst_json_real(json, "phi_deg", l->bead_angle_deg);
     fst_json_reals(json, "n", l->state + FST_NX, 3);
     fst_json_reals(json, "w", l->state + FST_WX, 3);
-    fst_json_pairs(json, "eigenvalues", l->eigenvalue_re, l->eigenvalue_im, FST_EIGENVALUE_COUNT);
+    fst_json_rates(json, l->eigenvalue_re, l->eigenvalue_im, FST_EIGENVALUE_COUNT, si);
     fst_json_flag(json, "stable", l->stable);
-    fst_json_real(json, "slip", l->slip);
-    fst_json_real(json, "friction_power", l->friction_power);
+    fst_json_scaled(json, "slip", l->slip, "l gamma", si);
+    fst_json_scaled(json, "friction_power", l->friction_power, "l^2 gamma^3", si);
     fst_json_real(json, "residual", l->residual);
     fst_json_integer(json, "found", l->found);
-    fst_json_reals(json, "state", l->state, FST_STATE_SIZE);
+    put_state(json, l->state, 2, si);
     fst_json_close(json);
 }
 
@@ -147,20 +155,23 @@ char *fst_levitation_json(const fst_params *params, const fst_levitation_list *l
     return fst_json_end(&json, JSON_INDENT(INDENT));
 }
 
-char *fst_locked_json(const fst_params *params, double omega, const fst_locked_list *list)
+char *fst_locked_json(const fst_params *params, double omega, const fst_locked_list *list,
+                      fst_shown_units units)
 {
+    const fst_scales scales = fst_scales_of(params);
+    const fst_scales *si = fst_json_with_si(units) ? &scales : NULL;
     fst_json json = fst_json_begin('{');
-    fst_json_real(&json, "omega", omega);
+    fst_json_scaled(&json, "omega", omega, "gamma", si);
     fst_json_open(&json, "states", '[');
     for (size_t i = 0; i < list->count; ++i)
-        put_locked(&json, &list->states[i]);
+        put_locked(&json, &list->states[i], si);
     fst_json_close(&json);
     if (params->friction_law == FST_FRICTION_COULOMB || params->friction_law == FST_FRICTION_ROLLING) {
         fst_json_open(&json, "families", '[');
         for (size_t i = 0; i < list->family_count; ++i) {
             fst_json_open(&json, NULL, '{');
-            put_rolling(&json, "from", &list->families[i].from);
-            put_rolling(&json, "to", &list->families[i].to);
+            put_rolling(&json, "from", &list->families[i].from, si);
+            put_rolling(&json, "to", &list->families[i].to, si);
             fst_json_close(&json);
         }
         fst_json_close(&json);
@@ -173,28 +184,30 @@ char *fst_locked_json(const fst_params *params, double omega, const fst_locked_l
 }
 
 const fst_point_number fst_point_numbers[FST_POINT_NUMBER_COUNT] = {
-    {"value", offsetof(fst_branch_point, value)},
-    {"second", offsetof(fst_branch_point, second)},
-    {"omega", offsetof(fst_branch_point, omega)},
-    {"mean_r", offsetof(fst_branch_point, mean_r)},
-    {"mean_alpha_dot", offsetof(fst_branch_point, mean_alpha_dot)},
-    {"mean_nz", offsetof(fst_branch_point, mean_nz)},
-    {"festoons", offsetof(fst_branch_point, festoons)},
-    {"period", offsetof(fst_branch_point, period)},
-    {"min_r", offsetof(fst_branch_point, min_r)},
-    {"phi_deg", offsetof(fst_branch_point, bead_angle_deg)},
-    {"slip", offsetof(fst_branch_point, slip)},
-    {"relaxation_time", offsetof(fst_branch_point, relaxation_time)},
-    {"swing_ratio", offsetof(fst_branch_point, swing_ratio)},
+    {"value", "", offsetof(fst_branch_point, value)},
+    {"second", "", offsetof(fst_branch_point, second)},
+    {"omega", "gamma", offsetof(fst_branch_point, omega)},
+    {"mean_r", "l", offsetof(fst_branch_point, mean_r)},
+    {"mean_alpha_dot", "gamma", offsetof(fst_branch_point, mean_alpha_dot)},
+    {"mean_nz", "1", offsetof(fst_branch_point, mean_nz)},
+    {"festoons", "1", offsetof(fst_branch_point, festoons)},
+    {"period", "1/gamma", offsetof(fst_branch_point, period)},
+    {"min_r", "l", offsetof(fst_branch_point, min_r)},
+    {"phi_deg", "deg", offsetof(fst_branch_point, bead_angle_deg)},
+    {"slip", "l gamma", offsetof(fst_branch_point, slip)},
+    {"relaxation_time", "1/gamma", offsetof(fst_branch_point, relaxation_time)},
+    {"swing_ratio", "1", offsetof(fst_branch_point, swing_ratio)},
 };
 
-static void put_point(fst_json *json, const char *key, fst_branch_kind kind, const fst_branch_point *p)
+static void put_point(fst_json *json, const char *key, const fst_branch *branch, const fst_branch_point *p,
+                      const fst_scales *si)
 {
+    const fst_branch_kind kind = branch->kind;
     fst_json_open(json, key, '{');
     for (int i = 0; i < FST_POINT_NUMBER_COUNT; ++i) {
         double value;
         memcpy(&value, (const char *)p + fst_point_numbers[i].offset, sizeof value);
-        fst_json_real(json, fst_point_numbers[i].key, value);
+        fst_json_scaled(json, fst_point_numbers[i].key, value, fst_point_numbers[i].unit, si);
     }
     fst_json_text(json, "symmetry", fst_symmetry_name(p->symmetry));
     fst_json_integer(json, "turns", p->turns);
@@ -204,19 +217,29 @@ static void put_point(fst_json *json, const char *key, fst_branch_kind kind, con
     } else if (kind == FST_BRANCH_DRIVEN) {
         fst_json_flag(json, "stable", p->stable);
         fst_json_pairs(json, "multipliers", p->multiplier_re, p->multiplier_im, p->multipliers);
-        fst_json_reals(json, "state", p->levitation.state, FST_BEAD_NUMBERS);
+        put_state(json, p->levitation.state, 3, si);
     } else {
         fst_json_flag(json, "stable", p->stable);
-        fst_json_pairs(json, p->multipliers == FST_EIGENVALUE_COUNT ? "eigenvalues" : "multipliers",
-                       p->multiplier_re, p->multiplier_im, p->multipliers);
-        fst_json_reals(json, "state", p->state, FST_STATE_SIZE);
+        if (p->multipliers == FST_EIGENVALUE_COUNT)
+            fst_json_rates(json, p->multiplier_re, p->multiplier_im, p->multipliers, si);
+        else
+            fst_json_pairs(json, "multipliers", p->multiplier_re, p->multiplier_im, p->multipliers);
+        put_state(json, p->state, 2, si);
     }
     fst_json_close(json);
 }
 
+/* The scaled units at a point. */
+static fst_scales scales_at(const fst_params *params, const fst_branch *branch, const fst_branch_point *p)
+{
+    const char *const keys[2] = {branch->key, branch->second_key};
+    return fst_json_scales_at(params, keys, (const double[]){p->value, p->second});
+}
+
 /* The special points of a branch; or those where two families only cross, because nothing is born or ends
  * there. */
-static void put_specials(fst_json *json, const char *key, const fst_branch *branch, int crossings)
+static void put_specials(fst_json *json, const char *key, const fst_params *params, const fst_branch *branch,
+                         int crossings, fst_shown_units units)
 {
     fst_json_open(json, key, '[');
     for (size_t i = 0; i < branch->special_count; ++i) {
@@ -226,15 +249,17 @@ static void put_specials(fst_json *json, const char *key, const fst_branch *bran
         fst_json_open(json, NULL, '{');
         fst_json_text(json, "type", fst_special_name(s->type));
         fst_json_text(json, "parameter", branch->key);
+        const fst_scales scales = scales_at(params, branch, &s->at);
+        const fst_scales *si = fst_json_with_si(units) ? &scales : NULL;
         fst_json_real(json, "value", s->value);
-        fst_json_real(json, "omega", s->omega);
+        fst_json_scaled(json, "omega", s->omega, "gamma", si);
         fst_json_integer(json, "branch", s->branch);
         fst_json_text(json, "criticality",
                       s->criticality > 0   ? "supercritical"
                       : s->criticality < 0 ? "subcritical"
                                            : NULL);
         fst_json_place(json, "born", s->born);
-        put_point(json, "at", branch->kind, &s->at);
+        put_point(json, "at", branch, &s->at, si);
         fst_json_close(json);
     }
     fst_json_close(json);
@@ -256,7 +281,20 @@ static void put_end(fst_json *json, const fst_branch_end *e, int over_two)
     fst_json_close(json);
 }
 
-char *fst_branch_json(const fst_params *params, const fst_branch *branch)
+/* Every point, with the scales that its parameters make. */
+static void put_points(fst_json *json, const fst_params *params, const fst_branch *branch,
+                       fst_shown_units units)
+{
+    fst_json_open(json, "points", '[');
+    for (size_t i = 0; i < branch->point_count; ++i) {
+        const fst_branch_point *p = &branch->points[i];
+        const fst_scales scales = scales_at(params, branch, p);
+        put_point(json, NULL, branch, p, fst_json_with_si(units) ? &scales : NULL);
+    }
+    fst_json_close(json);
+}
+
+char *fst_branch_json(const fst_params *params, const fst_branch *branch, fst_shown_units units)
 {
     const int over_two = branch->second_key[0] != '\0';
     fst_json json = fst_json_begin('{');
@@ -272,16 +310,13 @@ char *fst_branch_json(const fst_params *params, const fst_branch *branch)
     }
     fst_json_flag(&json, "complete", branch->complete);
     fst_json_integer(&json, "branches", branch->branches);
-    put_specials(&json, "specials", branch, 0);
-    put_specials(&json, "crossings", branch, 1);
+    put_specials(&json, "specials", params, branch, 0, units);
+    put_specials(&json, "crossings", params, branch, 1, units);
     fst_json_open(&json, "ends", '[');
     for (size_t i = 0; i < branch->end_count; ++i)
         put_end(&json, &branch->ends[i], over_two);
     fst_json_close(&json);
-    fst_json_open(&json, "points", '[');
-    for (size_t i = 0; i < branch->point_count; ++i)
-        put_point(&json, NULL, branch->kind, &branch->points[i]);
-    fst_json_close(&json);
+    put_points(&json, params, branch, units);
     fst_json_scene(&json, params);
     return fst_json_end(&json, JSON_INDENT(1));
 }
@@ -290,7 +325,7 @@ fst_status fst_branch_write(const char *path, const fst_params *params, const fs
                             fst_error *error)
 {
     fst_whole_file file;
-    char *text = fst_branch_json(params, branch);
+    char *text = fst_branch_json(params, branch, FST_SHOWN_SCALED);
     if (!text)
         return fst_fail(error, FST_NO_MEMORY, path, "out of memory");
     fst_status status = fst_whole_file_open(&file, path, error);

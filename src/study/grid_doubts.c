@@ -4,16 +4,48 @@
 #include <stdio.h>
 #include <string.h>
 
+/* The parameters of the point of look `i`, from the first point to the last. */
+enum { LOOKS = 255 };
+static int look(const fst_grid *grid, int64_t i, int64_t *point, fst_params *params)
+{
+    const int64_t last = fst_grid_points(grid) - 1, looks = last < LOOKS ? last : LOOKS;
+    *point = looks > 0 ? i * last / looks : 0;
+    return i <= looks && fst_grid_params(grid, *point, params, NULL) == FST_OK;
+}
+
+/* The first point at which parts overlap that do not in the scene itself. */
+static int overlap_along(const fst_grid *grid, char *sentence, size_t size)
+{
+    char why[256];
+    fst_params params;
+    int64_t point;
+    if (fst_grid_base(grid)->magnet_shape != FST_MAGNET_PARTS ||
+        fst_parts_contradiction(fst_grid_base(grid), why, sizeof why))
+        return 0;
+    for (int64_t i = 0; i <= LOOKS; ++i)
+        if (look(grid, i, &point, &params) && fst_parts_contradiction(&params, why, sizeof why)) {
+            (void)snprintf(sentence, size, "at");
+            for (int a = 0; a < fst_grid_axis_count(grid); ++a) {
+                const size_t used = strlen(sentence);
+                char value[64];
+                (void)fst_params_get(&params, fst_param_find(fst_grid_key(grid, a)), value, sizeof value);
+                (void)snprintf(sentence + used, size - used, " %s = %s,", fst_grid_key(grid, a), value);
+            }
+            const size_t used = strlen(sentence);
+            (void)snprintf(sentence + used, size - used, " and maybe at others: %s", why);
+            return 1;
+        }
+    return 0;
+}
+
 int fst_grid_contradiction(const fst_grid *grid, char *sentence, size_t size)
 {
-    enum { LOOKS = 255 };
-    const int64_t last = fst_grid_points(grid) - 1, looks = last < LOOKS ? last : LOOKS;
     fst_params params;
+    int64_t point;
     int found = 0;
-    for (int64_t i = 0; i <= looks && !found; ++i)
-        found = fst_grid_params(grid, looks > 0 ? i * last / looks : 0, &params, NULL) == FST_OK &&
-                fst_bead_contradiction(&params, sentence, size) != 0;
-    return found;
+    for (int64_t i = 0; i <= LOOKS && !found; ++i)
+        found = look(grid, i, &point, &params) && fst_bead_contradiction(&params, sentence, size) != 0;
+    return found || overlap_along(grid, sentence, size);
 }
 
 /* What changes along an axis: seen from the first point and from the last one. */

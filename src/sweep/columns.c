@@ -325,7 +325,11 @@ static void name_keys(int from, int to, char *names, size_t size)
     for (int kind = from; kind <= to; ++kind) {
         const int is_run = kind == FST_ROWS_OF_RUNS;
         if (is_run)
-            (void)snprintf(names, size, "regime|symmetry|rhs_calls");
+            (void)snprintf(
+                names, size,
+                "regime|symmetry|carried|never_slips|returns|rhs_calls|steps_accepted|steps_rejected|"
+                "final_X|final_Y|final_vX|final_vY|final_nX|final_nY|final_nZ|final_WX|final_WY|"
+                "final_WZ");
         for (int i = 0; i < (is_run ? fst_result_count() : fst_bead_column_count((fst_row_kind)kind)); ++i) {
             const size_t used = strlen(names);
             (void)snprintf(names + used, size - used, "%s%s", used ? "|" : "",

@@ -221,22 +221,17 @@ typedef struct hdf5_columns {
     int count, reason; /* `reason`: the place of the free texts */
 } hdf5_columns;
 
-static void describe(const char *name, fst_column_info *info)
+static void describe(const fst_grid *grid, const char *name, fst_column_info *info)
 {
-    *info = (fst_column_info){name, "1", ""};
+    *info = (fst_column_info){name, fst_sweep_key_unit(grid, name), ""};
     const fst_param_info *param = fst_param_at(fst_param_find(name));
     if (param) {
         info->unit = param->kind == FST_KIND_CHOICE ? "1" : fst_unit_name(param->unit);
         info->doc = param->doc;
     }
     for (int i = 0; i < fst_result_count(); ++i)
-        if (strcmp(fst_result_at(i)->name, name) == 0) {
-            info->unit = fst_result_at(i)->unit;
+        if (strcmp(fst_result_at(i)->name, name) == 0)
             info->doc = fst_result_at(i)->doc;
-        }
-    const fst_bead_column *of_beads = fst_bead_column_find(name);
-    if (of_beads && info->doc[0] == '\0')
-        info->unit = of_beads->unit;
     if (codes_of(name))
         info->doc = codes_of(name); /* the texts in the order of their codes 0, 1, ... */
 }
@@ -259,7 +254,7 @@ static int list_columns(exporter *e, hdf5_columns *c)
             c->reason = i;
             continue;
         }
-        describe(name, &c->infos[c->count]);
+        describe(e->file.grid, name, &c->infos[c->count]);
         c->pointers[c->count] = &c->infos[c->count];
         c->places[c->count++] = i;
     }

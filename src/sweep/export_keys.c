@@ -21,9 +21,11 @@ typedef struct table_writer {
     int count;
     fst_shown_units units;
     fst_sweep_file file;
-    int is_refined;        /* points without a row are left out; else their results stay empty */
-    int places[MOST_KEYS]; /* of the keys among the columns of the database */
-    int status, reason;    /* the places of these there */
+    int is_refined; /* points without a row are left out; else their results stay empty */
+    const char *all[MOST_KEYS];
+    int places[MOST_KEYS];            /* of the keys among the columns of the database */
+    const char *key_units[MOST_KEYS]; /* as the head tells them */
+    int status, reason;               /* the places of these there */
     FILE *stream;
     const fst_progress *progress;
 } table_writer;
@@ -45,6 +47,9 @@ const char *fst_sweep_key_unit(const fst_grid *grid, const char *key)
     for (int i = 0; i < fst_result_count() && kind == FST_ROWS_OF_RUNS; ++i)
         if (strcmp(fst_result_at(i)->name, key) == 0)
             return fst_result_at(i)->unit;
+    for (int i = 0; i < fst_column_count() && strncmp(key, "final_", 6) == 0; ++i)
+        if (strcmp(fst_column_at(i)->name, key + 6) == 0)
+            return fst_column_at(i)->unit;
     for (int i = 0; i < fst_bead_column_count(kind); ++i)
         if (strcmp(fst_bead_column_at(kind, i)->name, key) == 0)
             return fst_bead_column_at(kind, i)->unit;
@@ -61,10 +66,9 @@ static void write_name(FILE *out, const char *name, const char *unit)
 
 /* ------------------------------------------------------------------ rows */
 
-static void write_head(const table_writer *w, const fst_scales *scales)
+static void write_head(table_writer *w, const fst_scales *scales)
 {
     const fst_grid *grid = w->file.grid;
-    const char *unit;
     int shift;
     for (int i = 0; i < fst_grid_axis_count(grid); ++i) {
         const char *key = fst_grid_key(grid, i);
@@ -72,8 +76,9 @@ static void write_head(const table_writer *w, const fst_scales *scales)
         (void)fputc(',', w->stream);
     }
     for (int i = 0; i < w->count; ++i) {
-        (void)fst_number_shown(w->keys[i], fst_sweep_key_unit(grid, w->keys[i]), w->units, scales, &unit);
-        write_name(w->stream, w->keys[i], unit);
+        (void)fst_number_shown(w->keys[i], fst_sweep_key_unit(grid, w->keys[i]), w->units, scales,
+                               &w->key_units[i]);
+        write_name(w->stream, w->keys[i], w->key_units[i]);
         (void)fputc(',', w->stream);
     }
     (void)fputs("status\n", w->stream);
@@ -97,23 +102,25 @@ static void write_parameter(const table_writer *w, int axis, int64_t point, cons
     (void)fprintf(w->stream, "%s,", text);
 }
 
-/* An undefined value stays empty. */
-static void write_result(const table_writer *w, const char *key, double value, const fst_scales *scales)
+/* A value in the unit of the head.  One that is undefined, or has none in that unit at this point, stays empty. */
+static void write_result(const table_writer *w, int i, sqlite3_stmt *row, const fst_scales *scales)
 {
     char text[64] = "";
-    const char *unit;
-    size_t length;
-    const fst_bead_column *of_beads = fst_bead_column_find(key);
-    if (isfinite(value) && of_beads && of_beads->names) {
-        const char *name = fst_name_at(of_beads->names, (int)value, &length);
-        (void)snprintf(text, sizeof text, "%.*s", (int)length, name);
-    } else if (isfinite(value) && strcmp(key, "symmetry") == 0)
-        (void)snprintf(text, sizeof text, "%s", fst_symmetry_name((fst_symmetry)value));
-    else if (isfinite(value))
-        (void)fst_number_write(
-            text, sizeof text,
-            value * fst_number_shown(key, fst_sweep_key_unit(w->file.grid, key), w->units, scales, &unit));
-    (void)fputs(text, w->stream);
+    const char *unit = fst_sweep_key_unit(w->file.grid, w->keys[i]), *shown;
+    const int type = row ? sqlite3_column_type(row, w->places[i]) : SQLITE_NULL;
+    double factor = 1.0;
+    if (w->key_units[i] != unit) {
+        factor = fst_number_shown(w->keys[i], unit, w->units, scales, &shown);
+        if (shown == unit)
+            factor = NAN;
+    }
+    if (type == SQLITE_TEXT) { /* a name */
+        (void)snprintf(text, sizeof text, "%s", (const char *)sqlite3_column_text(row, w->places[i]));
+        fst_text_tame(text);
+    } else if (type != SQLITE_NULL && isfinite(factor)) {
+        (void)fst_number_write(text, sizeof text, factor * sqlite3_column_double(row, w->places[i]));
+    }
+    (void)(strpbrk(text, ",\"") ? fst_sweep_write_quoted(w->stream, text) : (void)fputs(text, w->stream));
 }
 
 /* "done", "missing" where there is no row, or how and why the run failed: one of the texts of statuses, and the reason. */
@@ -146,7 +153,7 @@ static fst_status write_point(const table_writer *w, int64_t point, sqlite3_stmt
     for (int i = 0; i < fst_grid_axis_count(w->file.grid); ++i)
         write_parameter(w, i, point, &params);
     for (int i = 0; i < w->count; ++i) {
-        write_result(w, w->keys[i], row ? fst_sweep_number(row, w->places[i]) : NAN, &scales);
+        write_result(w, i, row, &scales);
         (void)fputc(',', w->stream);
     }
     write_status(w, row);
@@ -167,10 +174,23 @@ static fst_status write_gap(const table_writer *w, const fst_sweep_rows *rows, i
     return status;
 }
 
+static int is_all(const table_writer *w)
+{
+    return w->count == 1 && strcmp(w->keys[0], "all") == 0;
+}
+
 static fst_status find_places(table_writer *w, sqlite3_stmt *row, fst_error *error)
 {
     if (w->count > MOST_KEYS)
         return fst_fail(error, FST_BAD_INPUT, "fst_sweep_export_keys.keys", "at most %d keys", MOST_KEYS);
+    if (is_all(w)) {
+        w->count = 0;
+        w->keys = w->all;
+        for (int i = 1 + fst_grid_axis_count(w->file.grid); i < fst_sweep_column_count(w->file.grid); ++i)
+            if (strcmp(sqlite3_column_name(row, i), "status") != 0 &&
+                strcmp(sqlite3_column_name(row, i), "reason") != 0 && w->count < MOST_KEYS)
+                w->all[w->count++] = sqlite3_column_name(row, i);
+    }
     fst_status found = FST_OK;
     for (int i = 0; i < w->count && found == FST_OK; ++i)
         found = fst_sweep_find(row, w->keys[i], w->file.name, &w->places[i], error);
@@ -237,7 +257,7 @@ fst_status fst_sweep_export_keys(const char *path, const char *const *keys, int 
     fst_refining refining;
     fst_status status = FST_OK;
     status = fst_sweep_file_open(path, 0, &w.file, error);
-    for (int i = 0; i < w.count && status == FST_OK; ++i)
+    for (int i = 0; i < w.count && status == FST_OK && !is_all(&w); ++i)
         status = fst_sweep_check_key(w.file.grid, w.keys[i], "fst_sweep_export_keys.keys", error);
     if (status == FST_OK)
         status = fst_refining_read(&w.file.lines, path, &refining, error);

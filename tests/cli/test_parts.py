@@ -123,6 +123,19 @@ class Parts(Case):
                 if not world:
                     self.assertEqual(festoon("run", scene, "--set", "run.periods=1", "--set", "run.discard=0")[2].count(" overlap"), len(told))
 
+    def test_parts_that_a_sweep_moves_into_each_other(self):
+        """One sentence, with the first such point; nothing more where the scene itself has it."""
+        block = "    - {kind: cuboid, centre: [%d mm, 0, 0], size: [10 mm, 10 mm, 10 mm], remanence: [0, 0, 1]}\n"
+        scene = self.path("blocks.yaml")
+        for centre, at in ((25, " = 0.008"), (5, "")):
+            with open(scene, "w") as file:
+                file.write("magnet:\n  shape: parts\n  parts:\n" + block % 0 + block % centre)
+            for values, told in (("25mm,15mm", 0), ("16mm,12mm,8mm,4mm", 1)):
+                _, _, err = festoon("sweep", scene, "--set", "run.periods=1", "--set", "run.discard=0", "--over",
+                                    f"magnet.parts[1].centre[0]={values}", "-o", self.path(f"{centre}{told}.db"))
+                self.assertEqual(err.count(" overlap"), told if centre == 25 else 1, err)
+                self.assertIn(f"at magnet.parts[1].centre[0]{at}, " if told and at else "", err)
+
     def test_trajectories_keep_the_parts(self):
         name = self.path("t.csv")
         self.good("run", self.scene, "--csv", name)

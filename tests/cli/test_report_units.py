@@ -178,7 +178,7 @@ def test_json_in_the_units_of_a_laboratory():
         states_in_si(si, "final_state")
         if scene and "beads" in si:
             close(si["energy_residual_joules"], si["energy_residual"] * scaled_units(si["scene"])["l^2 gamma^2"])
-    for command in ("run", "orbit", "critical", "field"):
+    for command in ("run", "orbit", "critical", "field", "locked", "branch"):
         told = " ".join(subprocess.run([FESTOON, command, "--help"], capture_output=True, text=True, check=True).stdout.split())
         assert "to --json lab and si both add the numbers in SI, beside the scaled ones" in told, command
 
@@ -201,35 +201,83 @@ def test_orbits_in_all_units():
         states_in_si(told["si"], "state")
 
 
-def exported(base, keys, units):
-    """[(value, unit)] of the first row of a sweep, a few keys at a time."""
-    found = []
-    for first in range(0, len(keys), 8):
-        some = keys[first:first + 8]
-        head, row, *_ = subprocess.run([FESTOON, "export", base, "--csv", "--quantity", ",".join(some), "--units", units],
-                                       capture_output=True, text=True, check=True).stdout.splitlines()
-        fields = [re.fullmatch(r"(\S+?)(?: \[(.*)\])?", field).groups() for field in head.split(",")[1:-1]]
-        assert [key for key, _ in fields] == some
-        found += [(float(cell or "nan"), unit or "1") for cell, (_, unit) in zip(row.split(",")[1:], fields)]
+#: How a key in SI ends, and the scaled unit of the one that it stands beside.
+ENDINGS = {"_m": "l", "_s": "1/gamma", "_per_s": "gamma", "_m_per_s": "l gamma", "_newtons": "l gamma^2", "_watts": "l^2 gamma^3"}
+
+
+def keys_in_si(document, scene):
+    """How many numbers of a document stand in SI beside the scaled ones; each is that number, by its scene and parameter."""
+    if isinstance(document, list):
+        return sum(keys_in_si(one, scene) for one in document)
+    if not isinstance(document, dict):
+        return 0
+    if document.get("parameter", scene.get("over")):
+        over = document.get("parameter", scene.get("over"))
+        scene = {**scene, "over": over, **({over: document["value"]} if "value" in document else {})}
+    factors, found = scaled_units(scene), 0
+    for key, value in document.items():
+        for ending, unit in ENDINGS.items():
+            if key.endswith(ending) and key[:-len(ending)] in document and value is not None:
+                pairs = [(value, document[key[:-len(ending)]])]
+                while isinstance(pairs[0][0], list):
+                    pairs = [pair for one in pairs for pair in zip(*one, strict=True)]
+                assert all(math.isclose(si, factors[unit] * scaled, rel_tol=1e-12) for si, scaled in pairs), key
+                found += 1
+        found += keys_in_si(value, scene) if key != "scene" else 0
     return found
 
 
+def test_locked_states_and_branches_in_all_units():
+    """--json has SI beside what is scaled, and in the reports each number times its unit is the same."""
+    ask = lambda *words: subprocess.run([FESTOON, *words], capture_output=True, text=True, check=True).stdout
+    bar, dry = SOURCE / "examples/beads/bar.yaml", ("--set", "friction.law=coulomb")
+    for words, least in ((("locked",), 15), (("locked", *dry), 7), (("locked", bar), 6), (("branch", "--kind", "counter", "--over", "drive.frequency=13:14"), 20),
+                         (("branch", "--kind", "locked", "--over", "friction.gamma=312:313"), 20)):
+        given, si = (json.loads(ask(*words, "--json", "--units", units)) for units in ("given", "si"))
+        assert stands_in(given, si), words
+        assert keys_in_si(si, si["scene"]) >= least, (words, keys_in_si(si, si["scene"]))
+        texts, found, scene = [ask(*words, "--units", units) for units in ("lab", "si", "scaled")], [], si["scene"]
+        assert len(set(texts)) == (1 if "friction.gamma=312:313" in words else 3)  # a rate that is a unit itself has no other
+        for text in texts:
+            numbers = re.findall(r"(?: = | with |drive | at )(-?[\d.e+-]+)(?: to [\d.e+-]+)? (l gamma\^2|l\^2 gamma\^3|[a-zA-Z/0-9]+)", text)
+            head = [unit for unit in re.findall(r"\((.*?)\)", re.search(r"(?m)^ .*\br \(.*$|$", text)[0]) if "mu N" not in unit]
+            row = re.search(r"(?m)^(?: +\d)? +[\d.]+\.[\d]{10} .*", text)
+            numbers += list(zip([row[0].split()[-1 if head[0] == "weights" else 0]], head)) if row and head else []
+            found.append([(float(value), unit) for value, unit in numbers])
+        known = {"Hz": 2 * math.pi, "1/s": 1}
+        same_in_si(found, ({**LAB, **known}, {**SI, **known}, {**scaled_units(scene), **known}))
+
+
+def exported(base, units):
+    """{key: (value, unit)} of the first row of a sweep: every number, with the unit that stands in its name."""
+    text = subprocess.run([FESTOON, "export", base, "--csv", "--quantity", "all", "--units", units], capture_output=True, text=True, check=True).stdout
+    head, row, *_ = (line.split(",")[1:-1] for line in text.splitlines())
+    fields = [re.fullmatch(r"(\S+?)(?: \[(.*)\])?", field).groups() for field in head]
+    return {key: (float(cell or "nan"), unit or "1") for cell, (key, unit) in zip(row, fields) if not re.match("[a-z]", cell)}
+
+
 def test_rows_of_sweeps_in_all_units():
-    """The same of every key of a sweep's rows: of beads, of a world, and of places where a bead floats."""
+    """The same of every key of a sweep's rows: of a bead, of several, of a world, and of places where a bead floats."""
+    same = {"Hz": 2 * math.pi, "1/s": 1, "deg": 1, "B0": 1, "m g": 1}  # of which nobody knows more, or that are the same in all
     with tempfile.TemporaryDirectory() as folder:
-        for name, scene, more in (("beads", "beads/bar", ()), ("world", "worlds/bowl", ()), ("floats", "worlds/levitation", ("--levitation",))):
-            base = os.path.join(folder, name + ".db")
-            subprocess.run([FESTOON, "sweep", SOURCE / f"examples/{scene}.yaml", *more, "--set", "run.periods=2", "--set", "run.discard=1",
+        for name, scene, more in (("one", None, ()), ("beads", "beads/bar", ()), ("world", "worlds/bowl", ()), ("floats", "worlds/levitation", ("--levitation",))):
+            base, words = os.path.join(folder, name + ".db"), [SOURCE / f"examples/{scene}.yaml"] if scene else []
+            subprocess.run([FESTOON, "sweep", *words, *more, "--set", "run.periods=2", "--set", "run.discard=1",
                             "--over", "drive.frequency=29,30", "-o", base], capture_output=True, check=True)
             rows = json.loads(subprocess.run([FESTOON, "export", base, "--json"], capture_output=True, text=True, check=True).stdout)
             keys = [key for key, value in rows[0].items() if isinstance(value, (int, float)) and key not in ("point", "drive.frequency")]
-            numbers = [exported(base, keys, units) for units in ("lab", "si", "scaled")]
-            told = json.loads(subprocess.run([FESTOON, "run", SOURCE / f"examples/{scene}.yaml", "--set", "run.periods=1", "--set",
+            found = [exported(base, units) for units in ("lab", "si", "scaled")]
+            assert found[0].keys() == found[1].keys() == found[2].keys() >= set(keys), name
+            for key, value in zip(keys, (rows[0][key] for key in keys)):
+                assert found[2][key][0] == value, key
+            told = json.loads(subprocess.run([FESTOON, "run", *words, "--set", "run.periods=1", "--set",
                                               "run.discard=0", "--json"], capture_output=True, text=True, check=True).stdout)["scene"]
-            same_in_si(numbers, (LAB, SI, scaled_units(told)))
-            if name != "floats":
-                assert any(unit == "mW" for _, unit in numbers[0])
-            assert name != "beads" or (dict(zip(keys, numbers[0]))["energy_residual"][1] == "uJ")
+            same_in_si([list(one.values()) for one in found], ({**LAB, **same}, {**SI, **same}, {**scaled_units(told), **same}))
+            for key, shown in found[0].items():  # nothing is scaled in a laboratory, but for what nobody knows more of
+                assert "gamma" not in shown[1] and shown[1] not in ("l",) and (shown[1] != "B0" or key.endswith("_b")), key
+            if name in ("one", "world"):
+                assert [found[0][key][1] for key in ("omega", "final_X", "final_WZ", "mean_drive_power")] == ["Hz", "mm", "Hz", "mW"], name
+            assert name != "beads" or found[0]["energy_residual"][1] == "uJ"
 
 
 for name, test in list(globals().items()):

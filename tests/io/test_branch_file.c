@@ -189,7 +189,8 @@ static void check_round_trip(fst_branch *b)
         fail_msg("%s: %s", error.where, error.sentence);
     check_same(b, &read);
     check_same_scene(&params, read.scene);
-    char *first = fst_branch_json(&params, b), *second = fst_branch_json(&params, &read);
+    char *first = fst_branch_json(&params, b, FST_SHOWN_SCALED),
+         *second = fst_branch_json(&params, &read, FST_SHOWN_SCALED);
     assert_string_equal(first, second);
     free(first);
     free(second);
@@ -332,7 +333,7 @@ static void other_members_are_refused(void **state)
     const fst_params params = fst_default_params();
     fst_branch b = made_up(FST_BRANCH_ALL), read;
     fst_error error;
-    char *text = fst_branch_json(&params, &b);
+    char *text = fst_branch_json(&params, &b, FST_SHOWN_SCALED);
     put_file(text);
     assert_int_equal(fst_branch_read(PATH, &read, &error), FST_OK);
     fst_branch_free(&read);
@@ -373,7 +374,7 @@ static void eigenvalues_are_nine(void **state)
     const fst_params params = fst_default_params();
     fst_branch b = made_up(1), read;
     fst_error error;
-    char *text = fst_branch_json(&params, &b);
+    char *text = fst_branch_json(&params, &b, FST_SHOWN_SCALED);
     char *list = strstr(text, "\"eigenvalues\": [");
     assert_non_null(list);
     char *from = strchr(list, '[') + 1, *next = strstr(from, "],") + 2;
@@ -404,7 +405,7 @@ static void integers_end_at_their_borders(void **state)
     const fst_params params = fst_default_params();
     fst_branch b = made_up(FST_BRANCH_ALL), read;
     fst_error error;
-    char *text = fst_branch_json(&params, &b);
+    char *text = fst_branch_json(&params, &b, FST_SHOWN_SCALED);
     for (size_t i = 0; i < sizeof integers / sizeof *integers; ++i)
         for (int beyond = 0; beyond < 4; ++beyond) {
             const int value = beyond % 2 ? integers[i].most + beyond / 2 : integers[i].least - beyond / 2;
