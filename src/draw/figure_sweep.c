@@ -226,7 +226,8 @@ static fst_status read_sweep(const char *path, const fst_sweep_figure *options, 
     fst_status status = fst_sweep_read_grid(path, &grid, error);
     if (status != FST_OK)
         return status;
-    const fst_shown_units units = options->units != FST_SHOWN_AS_GIVEN ? options->units : fst_sweep_units(grid);
+    const fst_shown_units units =
+        options->units != FST_SHOWN_AS_GIVEN ? options->units : fst_sweep_units(grid, options->at);
     status = cut(grid, path, options, units, &s->slice, error);
     if (status == FST_OK) {
         s->is_map = wants_map(grid, options, &s->slice);

@@ -21,16 +21,6 @@ static int varies(const fst_grid *grid, const char *key)
     return 0;
 }
 
-fst_shown_units fst_sweep_units(const fst_grid *grid)
-{
-    const char *keys[FST_AXIS_LIMIT];
-    int count = 0;
-    for (int i = 0; i < fst_grid_axis_count(grid); ++i)
-        if (fst_grid_axis_points(grid, i) > 1)
-            keys[count++] = fst_grid_key(grid, i);
-    return fst_units_over(keys, count);
-}
-
 /* The parameters that are units of axes themselves. */
 static const struct {
     const char *key;
@@ -54,6 +44,30 @@ static fst_scales scales_of(const fst_grid *grid)
         if (varies(grid, unit_keys[i].key))
             *(double *)((char *)&scales + unit_keys[i].scale) = NAN;
     return scales;
+}
+
+/* Whether a figure shows one value of this axis alone. */
+static int is_fixed(const char *key, const char *const *at)
+{
+    const size_t length = strlen(key);
+    for (int i = 0; i < FST_AXIS_LIMIT && at[i]; ++i)
+        if (strncmp(at[i], key, length) == 0 && at[i][length] == '=')
+            return 1;
+    return 0;
+}
+
+fst_shown_units fst_sweep_units(const fst_grid *grid, const char *const *at)
+{
+    const char *keys[FST_AXIS_LIMIT];
+    const fst_scales scales = scales_of(grid);
+    int count = 0, same = 1;
+    for (int i = 0; i < fst_grid_axis_count(grid); ++i)
+        if (fst_grid_axis_points(grid, i) > 1 && !is_fixed(fst_grid_key(grid, i), at))
+            keys[count++] = fst_grid_key(grid, i);
+    const fst_shown_units units = fst_units_over(keys, count);
+    for (int i = 0; i < count; ++i)
+        same &= isfinite(fst_quantity_of_parameter(keys[i], units, &scales).factor) != 0;
+    return same ? units : FST_SHOWN_AS_GIVEN;
 }
 
 /* Refuse units that would need a scale which is not the same at all points. */

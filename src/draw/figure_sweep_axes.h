@@ -8,8 +8,9 @@
 #include <festoon/festoon_tools.h>
 
 /* The units of a figure for which nobody asked for any: those of the laboratory where a varied parameter has
- * one, else scaled ones; as given where a varied parameter is a unit itself. */
-fst_shown_units fst_sweep_units(const fst_grid *grid);
+ * one, else scaled ones; as given where a varied parameter is a unit itself.  `at`: see fst_sweep_figure; what it fixes
+ * is not varied. */
+fst_shown_units fst_sweep_units(const fst_grid *grid, const char *const *at);
 
 /* A label without its unit, "drive frequency". */
 void fst_sweep_words(const char *label, char words[128]);

@@ -51,12 +51,18 @@ class ForEver(Case):
 
     def test_where_a_bar_breaks(self):
         words = ("branch", self.scene(bar(2)), "--kind", "locked", "--over", "drive.frequency=20:400")
-        told = json.loads(self.good(*words, "--json"))
+        told = json.loads(self.good(*words, "--json", "--units", "si"))
+        for point in told["points"][::7] + [special["at"] | {"omega": special["omega"], "omega_per_s": special["omega_per_s"]} for special in told["specials"]]:
+            rate, length = (told["scene"][key] for key in ("friction.gamma", "magnet.half_length"))
+            newton = told["scene"]["bead.mass"] * length * rate**2
+            self.assertAlmostEqual(point["omega_per_s"], point["omega"] * rate, delta=1e-9 * rate)
+            self.assertAlmostEqual(point["beads"][0]["r_m"], point["beads"][0]["r"] * length, delta=1e-12)
+            self.assertAlmostEqual(point["pair_forces"][0]["force_newtons"], point["pair_forces"][0]["force"] * newton, delta=1e-12)
         self.assertEqual([special["type"] for special in told["specials"]], ["hopf", "hopf", "contact"])
         self.assertEqual(told["ends"][1]["type"], "contact")
         self.assertEqual(told["ends"][1]["value"], told["specials"][2]["value"])
         self.assertLess(abs(told["specials"][2]["at"]["pair_forces"][0]["force"]), 1e-9)
-        self.assertIn("at the end of the range", self.good(*words[:-1], "drive.frequency=28:32"))
+        self.assertIn("at 32 Hz: at the end of the range", self.good(*words[:-1], "drive.frequency=28:32"))
 
     def test_what_is_refused(self):
         scene = self.scene(OPPOSITE)

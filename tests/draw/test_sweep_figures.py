@@ -255,7 +255,10 @@ class Units(Figures):
         script = self.plot("g.db", "--only", "friction.gamma=600", "--quantity", "mean_r")[0]
         low = float(re.search(r"set x2range \[(\S+):", script).group(1))
         self.assertAlmostEqual(low, 9 * 2 * math.pi / 600, 6)
-        self.assertNotIn("drive ω", self.plot("g.db", "--kind", "curves", "--quantity", "mean_r")[0])
+        self.assertIn("⟨r⟩ (mm)", script)  # the units of a sweep over what is shown
+        whole = self.plot("g.db", "--kind", "curves", "--quantity", "mean_r")[0]
+        self.assertNotIn("drive ω", whole)
+        self.assertIn("⟨r⟩ (ℓ)", whole)
 
     def test_metres_become_half_lengths(self):
         self.sweep("m.db", "magnet.depth=15mm:17mm:3", "bead.radius=2mm,3mm")
