@@ -30,9 +30,9 @@ def known_key(keyword: str) -> str:
     names = {of.split(".")[1]: keyword_of(of) for of in reversed(PARAMETERS)}
     names.update({keyword_of(of): keyword_of(of) for of in PARAMETERS})
     nearest = ffi.new("char[]", 64)
-    lib.fst_nearest_name(keyword.encode(), "|".join(names).encode(), nearest, 64)
-    found = names[text_of(nearest)]
-    raise BadInput(keyword, f'unknown keyword "{keyword}"; the nearest is {found} (festoon.schema() lists them all)')
+    edits = lib.fst_nearest_name(keyword.encode(), "|".join(names).encode(), nearest, 64)
+    hint = f"the nearest is {names[text_of(nearest)]} (festoon.schema() lists them all)" if edits <= max(2, len(keyword) // 2) else "festoon.schema() lists them all"
+    raise BadInput(keyword, f'unknown keyword "{keyword}"; {hint}')
 
 
 def keyword_of(key: str) -> str:

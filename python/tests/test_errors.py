@@ -101,6 +101,12 @@ def test_the_nearest_keyword_is_named(wrong, right):
         assert f"the nearest is {right} (festoon.schema() lists them all)" in caught.value.sentence
 
 
+def test_no_nearest_keyword_that_is_far():
+    with pytest.raises(fs.BadInput) as caught:
+        fs.Bead(xyzzy=3)
+    assert caught.value.sentence == 'unknown keyword "xyzzy"; festoon.schema() lists them all'
+
+
 @pytest.mark.parametrize("keyword", ["coils", "field__uniform", "start__position", "magnet__parts"])
 @pytest.mark.parametrize("value", [3, "3"])
 def test_a_list_is_wanted(keyword, value):

@@ -51,6 +51,12 @@ fst_status check_outputs(const arguments *given, fst_error *error)
         const given_option *one = &given->options[i];
         if (!is_output(one))
             status = check_outputs_spare(given, one->value, error);
+        else if (strcmp(one->value, "-") == 0)
+            status =
+                fail(error, FST_BAD_INPUT, "",
+                     "--%s: - is no file; write ./- for one of this name, or leave this out where a command "
+                     "prints",
+                     one->row->name);
         else if ((ends_in(one->value, ".yaml") || ends_in(one->value, ".yml")) &&
                  is_same_file(one->value, one->value))
             status = refuse(one, "a scene", error);

@@ -78,6 +78,13 @@ class Outputs(unittest.TestCase):
         self.assertEqual((self.folder / "drawn-2.csv").read_bytes(), (self.folder / "map.csv").read_bytes())
         self.assertEqual(sorted(path.name for path in self.folder.glob("drawn*")), ["drawn-2.csv", "drawn.yaml"])
 
+    def test_a_dash_is_no_file(self):
+        for words in (("run", *SHORT, "-o", "-"), ("run", *SHORT, "--csv", "-"), ("export", "rows.db", "--csv", "-o", "-")):
+            done = self.run_festoon(*words)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+            self.assertIn("- is no file; write ./-", done.stderr)
+        self.assertFalse((self.folder / "-").exists())
+
     def test_points_are_kept(self):
         done = self.run_festoon("plot", "branch.json", "--points", "points.csv", "-o", "branch.json")
         self.assertEqual(done.returncode, 2, done.stderr)
