@@ -81,12 +81,11 @@ const command export_command = {
     .synopsis = "FILE.db --csv|--json|--hdf5 [-o FILE] [options]",
     .summary = "Print the rows of a sweep in the order of its points",
     .details = "With --quantity or --units the CSV has the varied parameters and the keys (with --units alone "
-               "regime,\n"
-               "mean_r, std_r, mean_alpha_dot; of beads and worlds what fits) with their units, as in \"mean_r "
-               "[mm]\",\n"
-               "and the status of each point: done, missing, or why a run failed.  Damaged rows are named, "
-               "with status 2,\n"
-               "and -o FILE has the others; the command of the sweep computes them again.\n",
+               "a few usual\n"
+               "ones) with their units, as in \"mean_r [mm]\", and the status of each point: done, missing, or "
+               "why a run failed.\n"
+               "Damaged rows are named, with status 2, and -o FILE has the others; the command of the sweep "
+               "computes them again.\n",
     .options = options,
     .most_operands = 1,
     .much_output = 1,
