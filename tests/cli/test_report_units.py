@@ -1,6 +1,6 @@
 """The numbers that `festoon run` prints for people are those of --json, in the units beside them.
 
-tests: cli/orbit.c cli/beads_orbits.c io/orbit_json.c io/beads_orbit_json.c cli/run_report.c cli/run_world.c cli/beads_report.c cli/groups.c io/shown.c io/beads_file.c sweep/export_keys.c
+tests: cli/orbit.c cli/beads_orbits.c io/orbit_json.c io/beads_orbit_json.c io/json_si.c cli/run_report.c cli/run_world.c cli/beads_report.c cli/groups.c io/shown.c io/beads_file.c sweep/export_keys.c
 labels: numbers"""
 
 import json
