@@ -31,7 +31,9 @@ def known_key(keyword: str) -> str:
     names.update({keyword_of(of): keyword_of(of) for of in PARAMETERS})
     nearest = ffi.new("char[]", 64)
     edits = lib.fst_nearest_name(keyword.encode(), "|".join(names).encode(), nearest, 64)
-    hint = f"the nearest is {names[text_of(nearest)]} (festoon.schema() lists them all)" if edits <= max(2, len(keyword) // 2) else "festoon.schema() lists them all"
+    hint = "festoon.schema() lists them all"
+    if edits <= max(2, len(keyword) // 2):
+        hint = f"the nearest is {names[text_of(nearest)]} ({hint})"
     raise BadInput(keyword, f'unknown keyword "{keyword}"; {hint}')
 
 
