@@ -10,6 +10,12 @@ int fst_creep_begins(const fst_flow *flow);
 /* A creep begins or goes on at `state`, whose slip is turned into the direction that it has. */
 void fst_creep_enter(fst_flow *flow, double *state);
 
+/* Whether a disc that was held begins to creep in a state where it lets go. */
+int fst_creep_is_released(const fst_flow *flow, const double *state);
+
+/* Neighbours are carried along from now on: a disc slips instead of creeping. */
+void fst_creep_is_followed(fst_flow *flow);
+
 /* The fraction of the last step, in the mode creep, at which another mode or another lag must follow, 2 where
  * none; *next: the mode.  And the mode at its end. */
 double fst_creep_ends(fst_flow *flow, int *next);

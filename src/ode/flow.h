@@ -28,8 +28,9 @@ typedef struct fst_part_state {
 typedef struct fst_contact_state {
     fst_part_state slip, roll;
     double proposal[FST_MODES][FST_ROLL_MODES]; /* size of the next step in each pair of modes */
-    int64_t captures;                           /* slips that came to rest before the last step */
-    int64_t impacts; /* of a bead that flew, the impulses that held it up, and the energy they took */
+    int followed;     /* whether neighbours of a disc are carried along (neighbours.c), which know no creep */
+    int64_t captures; /* slips that came to rest before the last step */
+    int64_t impacts;  /* of a bead that flew, the impulses that held it up, and the energy they took */
     double impulse, impact_loss;
 } fst_contact_state;
 

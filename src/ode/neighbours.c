@@ -19,12 +19,11 @@
  *     slip -> stick     |V| has fallen to nothing in both at equal theta: what d still has of a slip is
  *                       taken out by the plate's impulse, and d - f dt goes on
  *     stick -> onset    f = w there: nothing happens (if static friction is hardly stronger: as below)
- *     onset -> slip     nothing happens here either
+ *     onset, creep -> slip  nothing happens here either
  *     stick -> slip     static friction was stronger: f != w.  The neighbour lets go at another time, off by
  *                       dt = -Dg d/(Dg w), g being what static friction could still take: d + w dt goes on
  *     slip -> creep     the slip hardly changes: d - f dt goes on, with the slip in the direction that follows the
- *     creep -> creep    neighbour's push, by the plate's impulse (at each end of a step of a creep, ode/creep.c)
- *     creep -> slip     nothing happens
+ *     creep -> creep    neighbour's push, by the plate's impulse (at each end of a step, ode/creep.c; a disc slips)
  *     creep -> stick    as onset -> stick:
  *     onset -> stick    the slip has come back to nothing at the rate s': dt = -ds/s', d + (w - f) dt goes on
  *
@@ -561,9 +560,10 @@ static void change_mode(fst_neighbours *b, const fst_flow *flow)
 
 /* ------------------------------------------------------------------ the way */
 
-void fst_neighbours_start(fst_neighbours *b, const fst_flow *flow)
+void fst_neighbours_start(fst_neighbours *b, fst_flow *flow)
 {
     const fst_world_double *c = fst_flow_world(flow);
+    fst_creep_is_followed(flow);
     for (int column = 0; column < b->count; ++column)
         memset(b->d[column] + FST_STATE_SIZE, 0, (FST_NUMBERS - FST_STATE_SIZE) * sizeof *b->d[column]);
     if (c->kinds.resists && fst_contact_roll(flow) != FST_ROLL_ROLLS)

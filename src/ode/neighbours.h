@@ -18,7 +18,7 @@ typedef struct fst_neighbours {
 } fst_neighbours;
 
 /* The flow is at its start, where the neighbours differ by d. */
-void fst_neighbours_start(fst_neighbours *b, const fst_flow *flow);
+void fst_neighbours_start(fst_neighbours *b, fst_flow *flow);
 
 /* Carry them along the flow's last step, and through the change of mode at its end. */
 void fst_neighbours_follow(fst_neighbours *b, const fst_flow *flow);

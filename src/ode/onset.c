@@ -157,6 +157,58 @@ static fst_lag_double lag_in(const pushed_bead *b, double apart, const double *s
     return lag;
 }
 
+/* ------------------------------------------------------------------ a disc */
+
+/* The rate, in space, at which the slip of a disc that creeps changes in a state: of V = p (nu/|f|) f, p = a |w|. */
+static void rate_of_slip(const pushed_bead *b, double omega, const double *state, double rate[2])
+{
+    const fst_coulomb_double *law = &b->world->law.coulomb;
+    const fst_modes_double *m = b->modes;
+    fst_linear_double l;
+    double dy[FST_STATE_SIZE], df[2];
+    fst_linearise_double(b->world, m, omega, state, &l, dy);
+    const fst_contact_double by = fst_contact_change_double(b->world, &l, state, dy), *at = &l.contact;
+    const fst_disc_creep_double k = fst_coulomb_creep_double(law, at);
+    const double *f = k.force, *v = k.slip, size = fst_norm_2_double(f) + 1e-290;
+    for (int i = 0; i < 2; ++i)
+        df[i] = at->share * (by.push[i] - m->gain[i][1] - 2.0 * at->time * m->gain[i][2]);
+    const double da = fst_patch_radius_by_load_double(&law->patch, at->load, k.radius) * by.load;
+    const double p = k.radius * m->way * at->pivot;
+    const double dp = m->way * (k.radius * by.pivot + da * at->pivot);
+    const double dsize = (f[0] * df[0] + f[1] * df[1]) / size;
+    const double s2 = at->slip[0] * at->slip[0] + at->slip[1] * at->slip[1];
+    const double ds2 = 2.0 * (at->slip[0] * by.slip[0] + at->slip[1] * by.slip[1]);
+    const double ddry =
+        fst_coulomb_mu_double(law, s2) * by.load + fst_coulomb_mu_by_s2_double(law, s2) * ds2 * at->load;
+    const double dnu = fst_disc_eases(&k) * (dsize - k.share * ddry) / k.dry;
+    const double along = dp * k.nu + p * (dnu - k.nu * dsize / size);
+    for (int i = 0; i < 2; ++i)
+        rate[i] = (along * f[i] + p * k.nu * df[i]) / size;
+    rate[0] -= omega * v[1];
+    rate[1] += omega * v[0];
+}
+
+void fst_fit_gain(const fst_flow *flow, const double *state, fst_modes_double *modes, int rounds)
+{
+    const pushed_bead b = bead_of(flow, modes, push_of_slip);
+    const double turn = APART * b.ramp;
+    double now[FST_NUMBERS] = {0.0}, around[2][FST_NUMBERS], before[2], at[2], after[2];
+    memcpy(now, state, FST_STATE_SIZE * sizeof *now);
+    for (int round = 0; round < rounds; ++round) {
+        states_around(&b, now, APART, around);
+        rate_of_slip(&b, b.omega - turn, around[0], before);
+        rate_of_slip(&b, b.omega, now, at);
+        rate_of_slip(&b, b.omega + turn, around[1], after);
+        for (int i = 0; i < 2; ++i) {
+            modes->gain[i][0] = at[i];
+            modes->gain[i][1] = (after[i] - before[i]) / (2.0 * APART);
+            modes->gain[i][2] = 0.5 * (after[i] - 2.0 * at[i] + before[i]) / (APART * APART);
+        }
+    }
+}
+
+/* ------------------------------------------------------------------ a point */
+
 double fst_hand_over(double rtol)
 {
     const double quarter = sqrt(sqrt(rtol));

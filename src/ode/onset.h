@@ -20,6 +20,15 @@ typedef struct fst_creeping {
 
 fst_creeping fst_creeping_at(const fst_flow *flow, const double *state);
 
+/* How nu grows with tau in a disc that creeps. */
+static inline double fst_disc_eases(const fst_disc_creep_double *k)
+{
+    return 8.0 / (3.0 * FST_PI * (1.0 - 0.75 * k->nu * k->nu));
+}
+
+/* Improve, so many times, the rate at which the slip of a disc changes that creeps in a state, in these modes. */
+void fst_fit_gain(const fst_flow *flow, const double *state, fst_modes_double *modes, int rounds);
+
 /* Begin to roll in a state, against a resistance that held the bead so far: how strong it is, and how fast the
  * push outgrows it and changes, as rates of W_h. */
 void fst_begin_rolling(fst_flow *flow, const double *state, double *strength, double *growth, double *turning);

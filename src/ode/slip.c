@@ -94,7 +94,8 @@ static void enter_disc(fst_flow *flow, int mode, double *state)
 
 void fst_slip_enter(fst_flow *flow, int mode, double *state)
 {
-    if (mode == FST_MODE_CREEP) {
+    const int lets_go = is_disc(flow) && mode == FST_MODE_SLIP && fst_contact_mode(flow) == FST_MODE_STICK;
+    if (mode == FST_MODE_CREEP || (lets_go && fst_creep_is_released(flow, state))) {
         fst_creep_enter(flow, state);
         return;
     }
@@ -135,7 +136,7 @@ int fst_slip_after(const fst_flow *flow)
     }
     const int rests = fst_contact_mode(flow) == FST_MODE_SLIP &&
                       fst_disc_rests(FST_WORLD(s), FST_MODES(s), s->end, FST_PATH_PULL(s, FST_PATH_END));
-    return rests ? FST_MODE_STICK : -1;
+    return rests ? FST_MODE_STICK : fst_creep_begins(flow) ? FST_MODE_CREEP : -1;
 }
 
 int fst_slip_is_felt(const fst_flow *flow, const double *state)

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ode/flow.h"
+#include "ode/creep.h"
 #include "orbit/family.h"
 
 #define TOLERANCE 1e-13
@@ -41,6 +41,7 @@ static void end_of(const fst_params *params, const double *start, double duratio
     if (fst_model_new(params, &model, &error) != FST_OK ||
         fst_flow_new(model, &o, start, &flow, &error) != FST_OK)
         fail_msg("%s", error.sentence);
+    fst_creep_is_followed(flow); /* by the steps that neighbours know */
     while (flow->t.high < duration) {
         if (fst_flow_step(flow, duration, &error) != FST_OK)
             fail_msg("%s", error.sentence);

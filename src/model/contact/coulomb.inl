@@ -15,7 +15,8 @@
  *
  * A disc.  Where the contact is a disc (patch.inl), f in a slip is mu N tau V/|V|, and the plate resists
  * pivoting. Then slip includes the creep of a bead that pivots, stick is for a bead that does not pivot either,
- * the plate holds its W.e too, and there is no onset.
+ * the plate holds its W.e too, and there is no onset.  Where the creep is so stiff that V is known (ode/creep.c),
+ * f = (A - V')/k in the mode creep, and nu, which gives the torque, follows from f.
  *
  * Stribeck: mu(s) = mu_d + (mu_s - mu_d)/(1 + (s/v_S)^2).  Without a speed v_S friction falls at once.
  */
@@ -122,11 +123,40 @@ static inline FN(rubbing_change) FN(coulomb_rubbing_change)(const FN(coulomb) * 
     return d;
 }
 
+/* A disc of which it is known how its slip changes: the force, what it is of the greatest one, nu, and V. */
+typedef struct FN(disc_creep) {
+    REAL force[2], dry, radius, share, nu, slip[2];
+} FN(disc_creep);
+
+OF_DISC FN(disc_creep) FN(coulomb_creep)(const FN(coulomb) * law, const FN(contact) * at)
+{
+    const FN(modes) *m = at->modes;
+    const REAL s2 = SUM_2(at->slip[0], at->slip[0], at->slip[1], at->slip[1]), load = FN(coulomb_load)(at);
+    FN(disc_creep) k = {.dry = FN(coulomb_mu)(law, s2) * load, .radius = FN(patch_radius)(&law->patch, load)};
+    for (int i = 0; i < 2; ++i) {
+        const REAL *p = m->gain[i];
+        const REAL gained = REAL_MULADD(at->time, REAL_MULADD(at->time, p[2], p[1]), p[0]);
+        k.force[i] = at->share * (at->push[i] - gained);
+    }
+    const REAL size = FN(norm_2)(k.force) + R(1e-290);
+    k.share = size / (k.dry + R(1e-290));
+    k.nu = FN(hertz_nu)(k.share);
+    for (int i = 0; i < 2; ++i)
+        k.slip[i] = k.radius * (m->way * at->pivot) * k.nu * (k.force[i] / size);
+    return k;
+}
+
 /* The torque against pivoting; while the bead is held, what balances the torque `held`. */
 OF_DISC REAL FN(coulomb_pivoting)(const FN(coulomb) * law, const FN(contact) * at, REAL held)
 {
+    const REAL_MASK creeps = FN(is_mode)(at->modes->contact, FST_MODE_CREEP);
     const FN(rubbing) r = FN(coulomb_rubbing)(law, at);
-    const REAL torque = r.dry * r.radius * r.shares.twist * r.side;
+    REAL torque = r.dry * r.radius * r.shares.twist * r.side;
+    if (REAL_ANY(creeps)) {
+        const FN(disc_creep) k = FN(coulomb_creep)(law, at);
+        const REAL twist = FN(hertz_near)(k.nu, R(1.0)).twist;
+        torque = REAL_SELECT(creeps, k.dry * k.radius * twist * at->modes->way, torque);
+    }
     return REAL_SELECT(FN(coulomb_sticks)(at), -held, -torque);
 }
 
@@ -151,10 +181,16 @@ static inline REAL FN(coulomb_pivoting_loss)(const FN(coulomb) * law, const FN(c
 
 OF_DISC void FN(disc_force)(const FN(coulomb) * law, const FN(contact) * at, REAL force[2])
 {
+    const REAL_MASK creeps = FN(is_mode)(at->modes->contact, FST_MODE_CREEP);
     const FN(rubbing) r = FN(coulomb_rubbing)(law, at);
     const REAL grip = r.dry * r.shares.grip;
     for (int i = 0; i < 2; ++i)
         force[i] = REAL_SELECT(FN(coulomb_sticks)(at), at->share * at->push[i], grip * at->slip[i]);
+    if (!REAL_ANY(creeps))
+        return;
+    const FN(disc_creep) k = FN(coulomb_creep)(law, at);
+    for (int i = 0; i < 2; ++i)
+        force[i] = REAL_SELECT(creeps, k.force[i], force[i]);
 }
 
 OF_DISC void FN(disc_change)(const FN(coulomb) * law, const FN(contact) * at, const FN(contact) * by,

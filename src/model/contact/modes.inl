@@ -2,8 +2,8 @@
  *
  * The numbers of a motion change all the time; its modes change at instants only and are constant within a
  * step. A contact slips or sticks, or its slip has just begun (coulomb.inl), or goes on so slowly that its
- * direction is known (ode/creep.c), or the bead is in the air (ode/flight.c). Where the plate resists rolling, the bead also rolls or rests, or has just started to roll
- * (resistance.inl):
+ * direction is known (ode/creep.c), or the bead is in the air (ode/flight.c). Where the plate resists rolling,
+ * the bead also rolls or rests, or has just started to roll (resistance.inl):
  *
  *     what moves        in motion    held     just let go    what pushes it
  *     slip V            slip         stick    onset          the push A
@@ -45,6 +45,8 @@ typedef struct FN(modes) {
     FN(lag) onset; /* of the slip that has just begun, or creeps */
     FN(lag) start; /* of the rotation that has just begun */
     REAL slow_2;   /* square of the slowest pivoting of a disc that is not taken for rest (patch.inl) */
+    REAL way;      /* which way a disc pivots that creeps, 1 or -1, and the rate at which its slip changes in */
+    REAL gain[2][3]; /* space: polynomials in the time since the start of the step */
 } FN(modes);
 
 /* What moves: numbers and modes. */
@@ -58,7 +60,7 @@ static inline FN(modes) FN(new_modes)(void)
 {
     const REAL zero = R(0.0);
     const FN(lag) none = {zero, zero, zero, {zero, zero, zero}, zero};
-    const FN(modes) m = {zero, zero, none, none, R(1e-12)};
+    const FN(modes) m = {zero, zero, none, none, R(1e-12), zero, {{zero, zero, zero}, {zero, zero, zero}}};
     return m;
 }
 

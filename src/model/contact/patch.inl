@@ -145,6 +145,20 @@ static inline FN(shares) FN(hertz_far)(REAL s, REAL p)
     return at;
 }
 
+/* The nu at which tau is that share of mu N, at most 0.88 (nu = 0.99): Newton's steps from below, which never pass
+ * it. */
+static inline REAL FN(hertz_nu)(REAL share)
+{
+    enum { STEPS = 6 };
+    const REAL x = REAL_SELECT(REAL_LESS(share, R(0.88)), share, R(0.88)) * R(8.0) / (R(3.0) * REAL_OF(FST_PI));
+    REAL nu = x;
+    for (int i = 0; i < STEPS; ++i) {
+        const REAL nu2 = nu * nu;
+        nu = nu + (x - nu * (R(1.0) - R(0.25) * nu2)) / (R(1.0) - R(0.75) * nu2);
+    }
+    return nu;
+}
+
 static inline FN(shares) FN(hertz_shares)(REAL s, REAL p)
 {
     const REAL_MASK near = REAL_LESS_EQUAL(s, p), far = REAL_LESS(R(2.5) * p, s);
