@@ -218,11 +218,9 @@ void fst_creep_enter(fst_flow *flow, double *state)
 void fst_creep_is_followed(fst_flow *flow)
 {
     flow->contact.followed = is_disc(flow);
-    if (!is_disc(flow) ||
-        (fst_contact_mode(flow) != FST_MODE_CREEP && flow->contact.slip.next != FST_MODE_CREEP))
-        return;
-    flow->contact.slip.next = FST_MODE_SLIP;
-    fst_contact_begin_next(flow);
+    if (is_disc(flow) &&
+        (fst_contact_mode(flow) == FST_MODE_CREEP || flow->contact.slip.next == FST_MODE_CREEP))
+        flow->contact.slip.next = FST_MODE_SLIP;
 }
 
 /* ------------------------------------------------------------------ what ends a step */

@@ -13,7 +13,7 @@ void fst_creep_enter(fst_flow *flow, double *state);
 /* Whether a disc that was held begins to creep in a state where it lets go. */
 int fst_creep_is_released(const fst_flow *flow, const double *state);
 
-/* Neighbours are carried along from now on: a disc slips instead of creeping. */
+/* Neighbours are carried along from now on: a disc slips instead of creeping, from its next mode on. */
 void fst_creep_is_followed(fst_flow *flow);
 
 /* The fraction of the last step, in the mode creep, at which another mode or another lag must follow, 2 where

@@ -24,8 +24,7 @@
  *                       dt = -Dg d/(Dg w), g being what static friction could still take: d + w dt goes on
  *     slip -> creep     the slip hardly changes: d - f dt goes on, with the slip in the direction that follows the
  *     creep -> creep    neighbour's push, by the plate's impulse (at each end of a step, ode/creep.c; a disc slips)
- *     creep -> stick    as onset -> stick:
- *     onset -> stick    the slip has come back to nothing at the rate s': dt = -ds/s', d + (w - f) dt goes on
+ *     onset, creep -> stick  the slip has come back to nothing at the rate s': dt = -ds/s', d + (w - f) dt goes on
  *
  * A bead that flies (ode/flight.c) has a height and a climb, z and z', and so have its neighbours:
  *
@@ -359,8 +358,7 @@ static void rate_then(const fst_flow *flow, const fst_flow *then, double *f)
     rate_in(flow, fst_contact_mode(then), fst_contact_roll(then), f);
 }
 
-/* Neighbours that were compared at equal theta are compared at equal times from now on.  (Not while a tiny slip
- * goes on.) */
+/* Neighbours that were compared at equal theta are compared at equal times from now on. */
 static void catch_up(fst_neighbours *b, const fst_flow *flow, const fst_flow *then)
 {
     double f[FST_NUMBERS];
@@ -564,6 +562,8 @@ void fst_neighbours_start(fst_neighbours *b, fst_flow *flow)
 {
     const fst_world_double *c = fst_flow_world(flow);
     fst_creep_is_followed(flow);
+    if (flow->contact.followed)
+        fst_contact_begin_next(flow);
     for (int column = 0; column < b->count; ++column)
         memset(b->d[column] + FST_STATE_SIZE, 0, (FST_NUMBERS - FST_STATE_SIZE) * sizeof *b->d[column]);
     if (c->kinds.resists && fst_contact_roll(flow) != FST_ROLL_ROLLS)

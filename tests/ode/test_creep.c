@@ -284,6 +284,28 @@ static void test_motion_of_disc(void **unused)
     CHECK_WITHIN(work(&p, 20), 0, 6e5); /* they took 35 million */
 }
 
+/* A larger disc, which comes to rest many times and lets go: against steps of the mode slip. */
+static void test_rests_of_disc(void **unused)
+{
+    (void)unused;
+    const fst_params p = disc_of(1e-3);
+    fst_model *model = model_of(&p);
+    double start[FST_STATE_SIZE], ends[2][FST_STATE_SIZE];
+    start_of(&p, model, start);
+    for (int followed = 0; followed < 2; ++followed) {
+        fst_flow *flow = flow_of(model, 1e-11, start);
+        if (followed)
+            fst_creep_is_followed(flow);
+        while (flow->t.high < turns(model, 2))
+            assert_int_equal(fst_flow_step(flow, turns(model, 2), NULL), FST_OK);
+        assert_true(flow->contact.captures > 3);
+        memcpy(ends[followed], flow->step.end, sizeof ends[followed]);
+        fst_flow_free(flow);
+    }
+    CHECK_CLOSE(greatest_difference(ends[0], ends[1], FST_STATE_SIZE), 0, 1e-6);
+    fst_model_free(model);
+}
+
 static void end_of_disc(double radius, double *end)
 {
     fst_params p = disc_of(radius);
@@ -322,7 +344,7 @@ int main(void)
         cmocka_unit_test(test_direction),     cmocka_unit_test(test_motion),
         cmocka_unit_test(test_work),          cmocka_unit_test(test_neighbours),
         cmocka_unit_test(test_slip_of_disc),  cmocka_unit_test(test_motion_of_disc),
-        cmocka_unit_test(test_limit_of_disc),
+        cmocka_unit_test(test_rests_of_disc), cmocka_unit_test(test_limit_of_disc),
     };
     return cmocka_run_group_tests_name("creep", tests, NULL, NULL);
 }
