@@ -371,7 +371,7 @@ def report(entries, results, write):
             print(f"invalid: {entry.name} ({entry.path}) does not compile")
     if write:
         few = [entry.name for entry in survivors if results.get(entry)["outcome"] == "open"]
-        section.write("mutants", text_of(rows, survivors, few))
+        section.write("mutants", text_of(rows[-1], survivors, few))
     valid = sum(counts[name] for name in COUNTED)
     left = counts["not tried"]
     if left:
@@ -386,16 +386,16 @@ def results_version():
         return re.search(r"#define FST_RESULTS_VERSION (\d+)", file.read())[1]
 
 
-def text_of(rows, survivors, few):
-    """The section of docs/inside/reliability.md; `few` are the faults of which only the likely tests were run."""
+def text_of(whole, survivors, few):
+    """The section of docs/inside/reliability.md; `whole` is the table's last row, `few` are the faults of which only the
+    likely tests were run."""
     text = ("Faults that a reviewer would call bugs (a wrong sign, factor, index or threshold; a check, a term or an "
             "error bar left\nout; an unquoted text; an ignored status) are put into the code by hand, one at a time. "
             "`tests/mutants/*.mutants` lists\nthem, a block for each fault. For each fault the tree is built, and its "
             "tests are run, all but the long ones, until one\nfails or hangs. Faults that compile to the same object "
-            f"files do not count. The numbers are of the code with\n`FST_RESULTS_VERSION` {results_version()}.\n\n")
-    left = rows[-1][5]
-    shown = [i for i in range(len(HEAD)) if i not in (4, 5) or rows[-1][i]]  # no columns of nothing but zeros
-    text += section.table([HEAD[i] for i in shown], [[row[i] for i in shown] for row in rows])
+            f"files do not count. Of {whole[1]} faults tests noticed {whole[2]}\n({whole[6]}), in the code with "
+            f"`FST_RESULTS_VERSION` {results_version()}.")
+    left = whole[5]
     if left:
         text += f"\n\n{left} faults were not tried: `make mutants` goes on with them."
     text += ("\n\nFaults that no test notices (`why` in `tests/mutants` says why that is accepted):\n\n" if survivors

@@ -389,19 +389,18 @@ def make_given(folder, film):
     give_measured(folder, film)
 
 
-HEAD = ["command", "memory fails", "the same output", "a sentence", "a library broke down", "writes and reads fail",
-        "the same output", "a sentence", "broken promises"]
+HEAD = ["cases", "the same output", "a sentence", "a library broke down"]
 
 
 def table(campaign):
-    """A row for each first word of the commands: cases and outcomes without memory, then those of the other faults."""
-    rows = {}
-    for (command, fault), (cases, same, sentence, library, broken) in campaign.tally.items():
-        row = [cases, same, sentence, library, 0, 0, 0] if fault == "an allocation fails" else [0, 0, 0, 0, cases, same, sentence]
-        for name in (command.split()[0], "together"):
-            rows[name] = [a + b for a, b in zip(rows.get(name, [0] * 8), [*row, broken])]
-    rows["together"] = rows.pop("together")  # the last one
-    return section.table(HEAD, [[name, *row] for name, row in rows.items()])
+    """A row for memory that runs out, and one for the other faults."""
+    rows = {True: [0] * 4, False: [0] * 4}
+    for (_, fault), (*counts, _) in campaign.tally.items():
+        memory = fault == "an allocation fails"
+        rows[memory] = [a + b for a, b in zip(rows[memory], counts)]
+    commands = len({command.split()[0] for command, _ in campaign.tally})
+    return section.table([f"what fails in these {commands} commands", *HEAD],
+                         [["an allocation", *rows[True]], ["a write or a read", *rows[False]]])
 
 
 def report(campaign, places):
@@ -420,6 +419,8 @@ out and tells nobody, and fontconfig takes another font: a frame of a film may l
 allocations are not made to fail.
 
 {table(campaign)}
+
+Broken promises: {len(campaign.violations)}.
 
 {broken}"""
 
