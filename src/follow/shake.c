@@ -226,8 +226,13 @@ double follow_shake_roll(const follow_shake *shake, const double shift[2])
     double roll = 0.0, sure = INFINITY;
     for (int k = shake->count - 1; k >= 0; --k) {
         double size = 16.0;
-        for (int round = 0; round < ROUNDS && fabs(roll) < MOST_ROLL; ++round)
+        for (int round = 0; round < ROUNDS && fabs(roll) < MOST_ROLL; ++round) {
+            const double before = roll;
             sure = improve_roll(shake, k, shift, &size, &roll);
+            if (round > 0 &&
+                fabs(roll - before) * 0.5 * shake->width[k] < CLOSE) /* the first one finds the size */
+                break;
+        }
     }
     return fabs(roll) < MOST_ROLL && sure * 0.5 * shake->width[0] < LEAST_SURE ? roll : NAN;
 }

@@ -40,11 +40,12 @@ class Critical(unittest.TestCase):
         self.assertLess(found["error"], 1e-8)
         self.assertEqual((found["parting"], found["parting_error"]), (found["value"], found["error"]))
         self.assertEqual(found["until"], found["stretches"][-1]["to"])
-        self.assertIn("from it on counter-rotating\n", festoon("critical", *FEW)[1])
+        self.assertIn("from it on counter-rotating\n", festoon("critical", *FEW[:-1], "0.09")[1])
         below, above = found["stretches"]  # the runs alone enclose it as tightly as asked
         self.assertTrue(below["to"] < crossing < above["from"] and above["from"] - below["to"] < 1e-3 * crossing)
         self.assertEqual(found["runs"], below["runs"] + above["runs"])
         scaled = critical("--set", "drive.omega=0.3", "--over", "drive.omega=0.17:0.2:4", "--tolerance", "0.05")
+        self.assertNotIn("value_hz", scaled)
         gamma = scaled["scene"]["friction.gamma"]
         self.assertLess(abs(scaled["value"] * gamma / (2 * 3.141592653589793) - crossing), 1e-8)
 
@@ -66,7 +67,6 @@ class Critical(unittest.TestCase):
                 self.assertAlmostEqual(row[key + "_hz"], row[key] * gamma / (2 * math.pi), 12)
         told = critical(*frequencies, "--units", "si")
         self.assertEqual((told["value_hz"], told["stretches"][1]["to_hz"]), (told["value"], told["stretches"][1]["to"]))
-        self.assertNotIn("value_hz", critical(*speeds))
 
     def test_up_to_where(self):
         """Over two blocks and a cylinder the bead circles against the magnet from 8.6 Hz to 12 Hz only."""
@@ -74,8 +74,8 @@ class Critical(unittest.TestCase):
         self.addCleanup(file.close)
         file.write(MAGNET)
         file.flush()
-        words = (file.name, "--set", "run.periods=120", "--set", "run.discard=60", "--tolerance", "0.05",
-                 "--over", "drive.frequency=6Hz:20Hz:8")
+        words = (file.name, "--set", "run.periods=120", "--set", "run.discard=60", "--tolerance", "0.09",
+                 "--over", "drive.frequency=7Hz:16Hz:4")
         status, out, _ = festoon("critical", *words)
         found = critical(*words)
         last = [i for i, row in enumerate(found["stretches"]) if row["regime"] == "counter-rotating"][0]

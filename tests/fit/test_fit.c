@@ -121,11 +121,12 @@ static void test_no_parabola(void **state)
     const fst_fit_options options = wishes(kappa_gamma, 2);
     fst_points points;
     fst_fit fit;
+    enum { GOOD = 2 }; /* the last table */
     uint64_t seed = 23767;
     int widened = 0;
-    for (int table = 0; table < 4; ++table) {
-        assert_true(fit_table(&params, 10.0, 20.0, 8, &points));
-        for (size_t i = 0; i < points.count && table < 3; ++i)
+    for (int table = 0; table <= GOOD; ++table) {
+        assert_true(fit_table(&params, 10.0, 20.0, 5, &points));
+        for (size_t i = 0; i < points.count && table < GOOD; ++i)
             for (int q = 0; q < FST_MEASURED_COUNT; ++q)
                 points.rows[i].error[q] *= 10.0;
         fit_add_noise(&points, &seed);
@@ -141,9 +142,9 @@ static void test_no_parabola(void **state)
             assert_true(by_curvature < 3.0);
             ++widened;
         }
-        assert_true(table < 3 || fit.widened == 1.0);
+        assert_true(table < GOOD || fit.widened == 1.0);
         fst_fit_free(&fit);
-        if (table == 3) {
+        if (table == GOOD) {
             for (size_t i = 0; i < points.count; ++i)
                 points.rows[i].value[FST_MEASURED_MEAN_R] *= 1.1;
             must_fit(&points, &options, &fit);

@@ -30,12 +30,14 @@ class BadFilms(films.OnFilms):
                    "--to", "1.5")
 
     def shaken(self, size):
-        """The film by a camera that moves by so many pixels (rms, in both directions), to a quarter of a pixel."""
+        """The film by a camera that moves by so many pixels (rms, in both directions), to a quarter of a pixel, or to a
+        whole one if it moves by many."""
         film = self.folder / "shaken.mp4"
-        room = 4 * int(2 * size + 4)
-        ffmpeg("-i", self.good, "-vf", f"scale=4*iw:4*ih:flags=bicubic,crop=iw-{2 * room}:ih-{2 * room}:"
-               f"x='{room}+{5.66 * size}*sin(n*0.37+sin(n*0.05))':y='{room}+{5.66 * size}*sin(n*0.53+1+2*sin(n*0.031))',"
-               "scale=iw/4:ih/4:flags=area", "-crf", "16", film)
+        fine = 4 if size < 2 else 1
+        room, far = fine * int(2 * size + 4), fine * math.sqrt(2) * size
+        larger, smaller = (f"scale={fine}*iw:{fine}*ih:flags=bicubic,", f",scale=iw/{fine}:ih/{fine}:flags=area") if fine > 1 else ("", "")
+        ffmpeg("-i", self.good, "-vf", f"{larger}crop=iw-{2 * room}:ih-{2 * room}:"
+               f"x='{room}+{far}*sin(n*0.37+sin(n*0.05))':y='{room}+{far}*sin(n*0.53+1+2*sin(n*0.031))'{smaller}", "-crf", "16", film)
         return film
 
     def test_shakes_are_followed(self):
@@ -64,10 +66,9 @@ class BadFilms(films.OnFilms):
 
     def test_a_steady_camera(self):
         """Nothing is said of a shake, and nothing of the light."""
-        for film in (self.good, self.folder / "a.mp4"):
-            out, done = self.track(film)
-            self.assertNotIn("camera  ", done.stdout)
-            self.assertNotIn("gray levels of 255 only", done.stderr)
+        _, done = self.track(self.good)
+        self.assertNotIn("camera  ", done.stdout)
+        self.assertNotIn("gray levels of 255 only", done.stderr)
         films.film(self.path, self.folder / "lamps.mp4", "--size", "480x360", "--flicker", "0.3", "--uneven", "0.5",
                    "--noise", "6", "--to", "1.5")
         self.assertNotIn("camera  ", self.track(self.folder / "lamps.mp4")[1].stdout)
@@ -75,10 +76,10 @@ class BadFilms(films.OnFilms):
     def test_a_ring_within_a_faint_edge(self):
         """A black ring is taken for a plate that hardly differs from the table: the edge around it is told."""
         flat, film = self.folder / "flat.mp4", self.folder / "ring.mp4"
-        films.film(self.path, flat, "--size", "480x360", "--noise", "1", "--tilt", "0deg", "--quality", "0", "--to", "1")
+        films.film(self.path, flat, "--size", "480x360", "--noise", "1", "--tilt", "0deg", "--quality", "0", "--to", "0.6")
         for outside, told in (("lum(X,Y)", False), ("if(lt(hypot(X-240,Y-180),146),lum(X,Y),158)", True)):
             ffmpeg("-i", flat, "-vf", f"geq=lum='if(between(hypot(X-240,Y-180),130,134),25,{outside})':cb=128:cr=128",
-                   "-crf", "10", film)
+                   "-crf", "10", "-preset", "ultrafast", film)
             _, done = self.track(film, "--scale", "plate 120 mm")
             self.assertEqual("a fainter edge of 29" in done.stderr, told, done.stdout + done.stderr)
 
@@ -89,7 +90,8 @@ class BadFilms(films.OnFilms):
         """Dark, and so noisy that the bead drowns: both are light, and the sentence has the levels and the noise."""
         film = self.folder / "light.mp4"
         for bright, noise in ((0.04, 0), (0.4, 60)):
-            ffmpeg("-i", self.good, "-vf", f"lutyuv=y=16+(val-16)*{bright},noise=alls={noise}:allf=t", "-crf", "16", film)
+            ffmpeg("-i", self.good, "-vf", f"lutyuv=y=16+(val-16)*{bright},noise=alls={noise}:allf=t", "-crf", "16", "-preset", "ultrafast",
+                   film)
             with tempfile.TemporaryDirectory() as other:  # refused, it leaves the picture alone
                 self.refused(film, "too little light|gray levels|noise|more light", "--figure", f"{other}/why.png")
                 self.assertEqual(os.listdir(other), ["why.png"])

@@ -21,9 +21,18 @@ if not films.can_film():
 
 
 class Track(films.OnFilms):
+    @classmethod
+    def plain(cls):
+        """The track of a.mp4 without options, and what was said; made once."""
+        out = cls.folder / "plain.csv"
+        if not out.exists():
+            cls.said = run("track", cls.folder / "a.mp4", "-o", out)
+            assert cls.said.returncode == 0, cls.said.stderr
+        return out, cls.said
+
     def test_places_and_times(self):
         """Within 0.3 pixels of the truth, none lost, y up, rows and times those of the film."""
-        out, done = self.track(self.folder / "a.mp4")
+        out, done = self.plain()
         names, rows = films.read(out)
         self.assertEqual(names, ["frame", "t [s]", "x [px]", "y [px]"])
         found = compare(out, self.folder / "a.truth.csv")
@@ -35,6 +44,8 @@ class Track(films.OnFilms):
             self.assertAlmostEqual(row[1], i / 240, places=9)
         self.assertIn(f"frames      {len(rows)}, 240 a second", done.stdout)
         self.assertIn("lost        0\n", done.stdout)
+        self.assertNotIn("camera  ", done.stdout)  # which stands still, in good light
+        self.assertNotIn("gray levels of 255 only", done.stderr)
 
     def test_millimetres(self):
         """By the plate's edge and by four marks of a tilted plate: lengths within half a percent.  The bead's own
@@ -49,7 +60,7 @@ class Track(films.OnFilms):
         out = self.track(self.folder / "a.mp4", "--scale", "bead 5 mm")[0]
         self.assertEqual(films.read(out)[0][2:], ["x [mm]", "y [mm]"])
         self.assertAlmostEqual(compare(out, self.folder / "a.truth.csv")["ratio"], 1.0, delta=0.07)
-        pixels = films.read(self.track(self.folder / "a.mp4")[0])[1]
+        pixels = films.read(self.plain()[0])[1]
         two = films.read(self.track(self.folder / "a.mp4", "--scale", "10,20:110,20=50mm", "--fps", "30")[0])[1]
         for a, b in zip(pixels, two):
             self.assertAlmostEqual(b[1], a[0] / 30, places=9)
@@ -91,7 +102,6 @@ class Track(films.OnFilms):
         self.refused(good, "--scale|unit", "--scale", "bead 5")
         self.refused(good, "--scale|plate 460 mm", "--scale", "disc 5 mm")
         self.refused(good, "--scale|outside", "--scale", "1,2:3,4000=5mm")
-        self.refused(good, "--distance|mm", "--scale", "plate 120 mm", "--distance", "1mm")
         self.refused(good, "--distance|more than 0", "--distance", "-3mm")
         for distance in ("18", "18mm"):
             self.refused(good, "focal length of|is the unit right", "--scale", "plate 120 mm", "--distance", distance)
@@ -99,6 +109,7 @@ class Track(films.OnFilms):
         done = run("track", good, "-o", self.folder / "no.csv", "--scale", "plate 120 mm", "--distance", "1mm", "--figure",
                    self.folder / "why.png")
         self.assertEqual((done.returncode, (self.folder / "no.csv").exists()), (2, False))
+        self.assertTrue("--distance" in done.stderr and "mm" in done.stderr, done.stderr)
         self.assertTrue((self.folder / "why.png").read_bytes().startswith(b"\x89PNG"))
         self.refused(good, ".png", "--figure", self.folder / "x.jpg")
         self.refused(good, ".mp4", "--overlay", self.folder / "x.avi")
@@ -155,7 +166,7 @@ class Track(films.OnFilms):
     def test_several_films(self):
         """A table, and the tracks that each film has alone; one that fails is told, and the others are there."""
         shutil.copy(self.folder / "a.mp4", self.folder / "b.c.mp4")
-        alone = self.track(self.folder / "a.mp4")[0].read_bytes()
+        alone = self.plain()[0].read_bytes()
         (self.folder / "to").mkdir()
         films_of_two = [self.folder / "a.mp4", self.folder / "b.c.mp4"]
         done = run("track", *films_of_two, "-o", self.folder / "to")

@@ -80,16 +80,17 @@ static void test_heights(void **unused)
     (void)unused;
     static const double heights[3] = {HEIGHT - 4e-3, HEIGHT, HEIGHT + 10e-3};
     comparison all[3] = {{.count = 0.0}, {.count = 0.0}, {.count = 0.0}};
-    for (int which = 1; which < MAGNETS; ++which)
+    for (int which = 1; which < MAGNETS; ++which) {
+        const fst_params p = magnet(which);
+        double sigma;
+        fst_field_map *noisy = measure(&p, 0.0025, 11, 0.0, 0.0, &sigma);
         for (int i = 0; i < 3; ++i) {
-            const fst_params p = magnet(which);
-            double sigma;
-            fst_field_map *noisy = measure(&p, 0.0025, 11, 0.0, 0.0, &sigma),
-                          *made = smooth(noisy, heights[i], 0);
+            fst_field_map *made = smooth(noisy, heights[i], 0);
             compare(&p, made, heights[i], &all[i]);
             fst_field_map_free(made);
-            fst_field_map_free(noisy);
         }
+        fst_field_map_free(noisy);
+    }
     check_coverage(&all[0]);
     check_coverage(&all[1]);
     CHECK_WITHIN(all[2].of_b[1] / (3.0 * all[2].count), 0.95,

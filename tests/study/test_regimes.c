@@ -130,9 +130,9 @@ static void test_small_librations(void **unused)
             p.run_discard = 8;
             const fst_run_result rest = run_of(&p);
             expect_regime(&rest, FST_REGIME_LOCKED);
-            for (int i = 0; i < 4; ++i) {
-                const double angle = i < 2 ? 1e-3 : 1e-6;
-                const int from = i % 2 ? FST_NX : FST_X;
+            for (int large = 0; large < 2; ++large) { /* each kick by one of the dynamics */
+                const double angle = large ? 1e-3 : 1e-6;
+                const int from = large == dynamics ? FST_X : FST_NX;
                 double start[FST_STATE_SIZE];
                 memcpy(start, rest.final_state, sizeof start);
                 start[from] = cos(angle) * rest.final_state[from] - sin(angle) * rest.final_state[from + 1];
