@@ -120,7 +120,7 @@ static void steps_do_not_turn_sharply(void **state)
 static void steps_do_not_land_far_away(void **state)
 {
     static const double folds[] = {0.333263, 0.394009, 0.405458, 0.467670, 0.519281, 0.552479, 0.617588};
-    static const double steps[] = {5.0, 1000.0};
+    static const double steps[] = {5.0, 100.0, 1000.0};
     (void)state;
     const fst_params params = scene_of(0.09, "rigid");
     for (size_t i = 0; i < sizeof steps / sizeof *steps; ++i) {
