@@ -77,6 +77,20 @@ double follow_bound(double square)
     return square / (1.0 + square / CUT);
 }
 
+/* What is expected of a rotation besides what the frame shows: its equations, and a misfit. */
+static double expect(const follow_turn *f, const follow_pose *pose, double *normal, double *right)
+{
+    double off[3];
+    if (!(f->trust > 0.0))
+        return 0.0;
+    fst_turn_between(pose->turn, f->expected, off);
+    for (int i = 0; i < 3 && normal; ++i) {
+        normal[(TERMS + 1) * i] += f->trust;
+        right[i] += f->trust * off[i];
+    }
+    return f->trust * fst_dot(off, off, 3);
+}
+
 /* What a rotation leaves of a frame; what no frame has shown yet counts as it would on average. */
 static double misfit(const follow_turning *t, const follow_turn *f, const follow_pose *pose, int stride)
 {
@@ -93,7 +107,7 @@ static double misfit(const follow_turning *t, const follow_turn *f, const follow
         sum += follow_bound(off * off / (t->sigma[k] * t->sigma[k]));
         ++count;
     }
-    return count ? sum / count : INFINITY;
+    return count ? (sum + expect(f, pose, NULL, NULL) / stride) / count : INFINITY;
 }
 
 /* How the level of a point changes with the shift, in units of sigma: `up` is its change with the place on the front. */
@@ -166,6 +180,7 @@ void follow_refine(const follow_turning *t, const follow_turn *f, int steps, fol
         double normal[TERMS * TERMS], right[TERMS], by[TERMS];
         follow_pose next = *pose;
         equations(t, f, pose, normal, right);
+        (void)expect(f, pose, normal, right);
         if (!solve(normal, right, 4, damp, by))
             return;
         const double size = sqrt(fst_dot(by, by, 3));
@@ -190,6 +205,7 @@ void follow_recentre(follow_turning *t, follow_turn *f, int steps)
     double normal[TERMS * TERMS], right[TERMS], by[TERMS];
     const follow_turn before = *f;
     equations(t, f, &f->pose, normal, right);
+    (void)expect(f, &f->pose, normal, right);
     if (!solve(normal, right, TERMS, 0.0, by) || !(hypot(by[4], by[5]) < MOST_SHIFT) ||
         !(fst_dot(by, by, 3) < GRID * GRID))
         return;
@@ -219,7 +235,8 @@ void follow_search(const follow_turning *t, const follow_turn *f, double reach, 
             continue;
         fst_turn_by(next.turn, by);
         /* Of equal ones the nearest to the prediction. */
-        next.misfit = misfit(t, f, &next, STRIDE) * (1.0 + 0.1 * fst_dot(by, by, 3) / (reach * reach));
+        next.misfit = misfit(t, f, &next, STRIDE) *
+                      (1.0 + (reach > 0.0 ? 0.1 * fst_dot(by, by, 3) / (reach * reach) : 0.0));
         for (int i = 0; i < BEST; ++i)
             if (next.misfit < best[i].misfit) {
                 const follow_pose other = best[i];

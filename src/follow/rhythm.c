@@ -1,4 +1,5 @@
-/* rhythm.c - what of a filmed bead's motion repeats itself: two rates by its places, and W by its rotations.
+/* rhythm.c - what of a filmed bead's motion repeats itself: two rates by its places, and W by its rotations, or by its
+ * faces before these are known.
  *
  * A window of eleven frames flattens what changes within five.  What repeats itself is known better than any window
  * would have it, because the whole film shows it, so the window is left with the rest.
@@ -11,7 +12,9 @@
 
 #include "base/constants.h"
 #include "base/dot.h"
+#include "base/order.h"
 #include "base/turn.h"
+#include "follow/pose.h"
 
 enum {
     UNKNOWNS = FOLLOW_WAVES,
@@ -20,11 +23,16 @@ enum {
     MOST_REPEATS = 10,
     FIRST_LINES = 2,
     FIRST_FRAMES = 600,
-    GRID = 4
+    GRID = 4,
+    FACE_LINES = 4,
+    FACE_REPEATS = 10
 };
 
-#define LEAST_TURNS 2.0 /* of the bead around the centre */
-#define FASTEST 0.85    /* of the rate of the frames: the turning from one to the next still shows this rate */
+#define LEAST_TURNS 2.0   /* of the bead around the centre */
+#define LEAST_FACING 0.45 /* cosine of the angle at which a face shows a mark well */
+#define OUTLIER 1.0       /* the square of the marks' contrast */
+#define RIDGE 0.1         /* of a face's knowledge of W: lest what no face tells be anything */
+#define FASTEST 0.85 /* of the rate of the frames: the turning from one to the next still shows this rate */
 
 /* Least squares with up to UNKNOWNS unknowns. */
 typedef struct equations {
@@ -49,6 +57,13 @@ static double arrow(const follow_rhythm *r, int k, double time, double at[2])
     at[0] = cos(angle);
     at[1] = sin(angle);
     return rate;
+}
+
+double follow_usual_step(const follow_turning *t, double *room)
+{
+    for (int i = 0; i + 1 < t->count; ++i)
+        room[i] = t->turns[i + 1].time - t->turns[i].time;
+    return fst_median(room, (size_t)(t->count - 1));
 }
 
 /* ------------------------------------------------------------------ places */
@@ -149,6 +164,13 @@ static int find_rates(const follow_turning *t, follow_rhythm *r)
     return isfinite(least);
 }
 
+/* How many lines the turning from one frame to the next still shows. */
+static int most_lines(const follow_rhythm *r, double usual, int most)
+{
+    const double fastest = FASTEST * FST_TWO_PI / usual - fabs(r->rates[0]);
+    return (int)fmin(most, fastest / fabs(r->rates[1]));
+}
+
 /* ------------------------------------------------------------------ rotations */
 
 /* W of each unknown at a time; returns how many there are. */
@@ -198,34 +220,58 @@ static int known_between(const follow_turn *a, const follow_turn *b, double know
     return 1;
 }
 
-/* The turning from one frame to the next by the waves, and how it changes with each of them: `off` is what is missing. */
+/* The turning from one frame to the next by the waves, and how it changes with each of them. */
+static void turning_of(const follow_rhythm *r, double from, double to, double turn[3][3],
+                       double change[3][UNKNOWNS])
+{
+    const double step = (to - from) / SUBSTEPS;
+    double sums[UNKNOWNS][3] = {{0.0}}, w[UNKNOWNS][3];
+    int count = 0;
+    memcpy(turn, (double[3][3]){{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}, 9 * sizeof turn[0][0]);
+    for (int k = 0; k < SUBSTEPS; ++k) {
+        double half[3] = {0.0, 0.0, 0.0};
+        count = waves(r, from + (k + 0.5) * step, w);
+        for (int p = 0; p < count; ++p)
+            for (int i = 0; i < 3; ++i)
+                half[i] += 0.5 * step * r->rate[p] * w[p][i];
+        fst_turn_by(turn, half);
+        for (int p = 0; p < count; ++p) /* R(s)^T w, R being the turning since the first frame */
+            for (int i = 0; i < 3; ++i)
+                sums[p][i] += step * (turn[0][i] * w[p][0] + turn[1][i] * w[p][1] + turn[2][i] * w[p][2]);
+        fst_turn_by(turn, half);
+    }
+    for (int p = 0; p < count; ++p)
+        for (int i = 0; i < 3; ++i)
+            change[i][p] = fst_dot(turn[i], sums[p], 3);
+}
+
+/* The same, and what is missing to the turning that was found. */
 static void turning_between(const follow_rhythm *r, const follow_turn *a, const follow_turn *b, double off[3],
                             double change[3][UNKNOWNS])
 {
-    const double step = (b->time - a->time) / SUBSTEPS;
-    double turn[3][3], since[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}},
-                       sums[UNKNOWNS][3] = {{0.0}}, w[UNKNOWNS][3];
-    int count = 0;
-    memcpy(turn, a->pose.turn, sizeof turn);
-    for (int k = 0; k < SUBSTEPS; ++k) {
-        double by[3] = {0.0, 0.0, 0.0}, half[3];
-        count = waves(r, a->time + (k + 0.5) * step, w);
-        for (int p = 0; p < count; ++p)
-            for (int i = 0; i < 3; ++i)
-                by[i] += step * r->rate[p] * w[p][i];
-        for (int i = 0; i < 3; ++i)
-            half[i] = 0.5 * by[i];
-        fst_turn_by(turn, by);
-        fst_turn_by(since, half);
-        for (int p = 0; p < count; ++p) /* R(s)^T w, R being the turning since the first frame */
-            for (int i = 0; i < 3; ++i)
-                sums[p][i] += step * (since[0][i] * w[p][0] + since[1][i] * w[p][1] + since[2][i] * w[p][2]);
-        fst_turn_by(since, half);
-    }
+    double by[3][3], turn[3][3];
+    turning_of(r, a->time, b->time, by, change);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            turn[i][j] =
+                by[i][0] * a->pose.turn[0][j] + by[i][1] * a->pose.turn[1][j] + by[i][2] * a->pose.turn[2][j];
     fst_turn_between((const double(*)[3])turn, b->pose.turn, off);
-    for (int p = 0; p < count; ++p)
-        for (int i = 0; i < 3; ++i)
-            change[i][p] = fst_dot(since[i], sums[p], 3);
+}
+
+/* Add the normal equations of a turning, in terms of the waves. */
+static void add_turning(equations *e, double change[3][UNKNOWNS], const double normal[3][3],
+                        const double right[3])
+{
+    for (int k = 0; k < 3; ++k) {
+        double row[UNKNOWNS];
+        for (int p = 0; p < e->count; ++p) {
+            row[p] = normal[k][0] * change[0][p] + normal[k][1] * change[1][p] + normal[k][2] * change[2][p];
+            e->right[p] += change[k][p] * right[k];
+        }
+        for (int p = 0; p < e->count; ++p)
+            for (int q = 0; q < e->count; ++q)
+                e->normal[p * e->count + q] += change[k][p] * row[q];
+    }
 }
 
 /* One step towards the waves that explain the rotations; `e` gets its equations.  Returns chi^2 before it, of `numbers` numbers. */
@@ -236,22 +282,14 @@ static double fit_rotations(const follow_turning *t, double usual, follow_rhythm
     *numbers = 0;
     for (int i = 0; i + 1 < t->count; ++i) {
         const follow_turn *a = &t->turns[i], *b = a + 1;
-        double off[3], known[3][3], change[3][UNKNOWNS];
+        double off[3], known_off[3], known[3][3], change[3][UNKNOWNS];
         if (!a->good || !b->good || b->time - a->time > 1.5 * usual || !known_between(a, b, known))
             continue;
         turning_between(r, a, b, off, change);
-        for (int k = 0; k < 3; ++k) {
-            double row[UNKNOWNS];
-            const double known_off = fst_dot(known[k], off, 3);
-            chi2 += off[k] * known_off;
-            for (int p = 0; p < e->count; ++p) {
-                row[p] = known[k][0] * change[0][p] + known[k][1] * change[1][p] + known[k][2] * change[2][p];
-                e->right[p] += change[k][p] * known_off;
-            }
-            for (int p = 0; p < e->count; ++p)
-                for (int q = 0; q < e->count; ++q)
-                    e->normal[p * e->count + q] += change[k][p] * row[q];
-        }
+        for (int k = 0; k < 3; ++k)
+            known_off[k] = fst_dot(known[k], off, 3);
+        chi2 += fst_dot(off, known_off, 3);
+        add_turning(e, change, (const double(*)[3])known, known_off);
         *numbers += 3;
     }
     double normal[UNKNOWNS * UNKNOWNS], more[UNKNOWNS];
@@ -262,6 +300,127 @@ static double fit_rotations(const follow_turning *t, double usual, follow_rhythm
     for (int p = 0; p < e->count; ++p)
         r->rate[p] += more[p];
     return chi2;
+}
+
+/* ------------------------------------------------------------------ faces */
+
+/* The mark that a frame shows in a direction (in the laboratory), and how it changes with the direction; 0: none is seen well there. */
+static int mark_at(const follow_turning *t, const follow_turn *f, const double at[3], double *mark,
+                   double slope[3])
+{
+    double across[3], node[2];
+    for (int j = 0; j < 3; ++j)
+        across[j] = f->view[0][j] * at[0] + f->view[1][j] * at[1] + f->view[2][j] * at[2];
+    const double nearer = f->shrink * (1.0 - f->close * across[2]);
+    if (across[2] < LEAST_FACING)
+        return 0;
+    for (int j = 0; j < 2; ++j)
+        node[j] = FOLLOW_PER_RADIUS * (across[j] / nearer + f->shift[j]);
+    const double x = floor(node[0]), y = floor(node[1]), p = node[0] - x, q = node[1] - y;
+    double corner[2][2];
+    for (int k = 0; k < 4; ++k) {
+        const int point =
+            follow_turning_point((x + (k & 1)) / FOLLOW_PER_RADIUS, (y + (k >> 1)) / FOLLOW_PER_RADIUS, t);
+        if (point < 0 || !t->used[point] || !(t->even[point] > 0.0))
+            return 0;
+        corner[k >> 1][k & 1] = follow_seen(t, f, point) / t->even[point];
+    }
+    *mark = (1.0 - q) * ((1.0 - p) * corner[0][0] + p * corner[0][1]) +
+            q * ((1.0 - p) * corner[1][0] + p * corner[1][1]);
+    const double right = (1.0 - q) * (corner[0][1] - corner[0][0]) + q * (corner[1][1] - corner[1][0]),
+                 up = (1.0 - p) * (corner[1][0] - corner[0][0]) + p * (corner[1][1] - corner[0][1]);
+    for (int i = 0; i < 3; ++i)
+        slope[i] = FOLLOW_PER_RADIUS / nearer * (right * f->view[i][0] + up * f->view[i][1]);
+    return 1;
+}
+
+/* What two faces tell of the turning from one to the other, near the one that the waves have: its normal equations. */
+static void compare(const follow_turning *t, const follow_turn *a, const follow_turn *b,
+                    const double turn[3][3], double normal[3][3], double right[3])
+{
+    for (int k = 0; k < t->points; ++k) {
+        double before[3], mark, slope[3], row[3];
+        if (!t->used[k] || !(t->even[k] > 0.0))
+            continue;
+        follow_on_bead(turn, t->facing[k], before);
+        if (!mark_at(t, a, before, &mark, slope))
+            continue;
+        const double off = follow_seen(t, b, k) / t->even[k] - mark, part = 1.0 / (1.0 + off * off / OUTLIER);
+        double now[3];
+        for (int i = 0; i < 3; ++i)
+            now[i] = fst_dot(turn[i], slope, 3);
+        for (int i = 0; i < 3; ++i)
+            row[i] =
+                now[(i + 1) % 3] * t->facing[k][(i + 2) % 3] - now[(i + 2) % 3] * t->facing[k][(i + 1) % 3];
+        for (int i = 0; i < 3; ++i) {
+            right[i] += part * part * row[i] * off;
+            for (int j = 0; j < 3; ++j)
+                normal[i][j] += part * part * row[i] * row[j];
+        }
+    }
+}
+
+/* One step towards the waves by which faces follow from each other.  Returns whether there is one. */
+static int fit_faces(follow_turning *t, double usual, follow_rhythm *r, equations *e)
+{
+    *e = (equations){.count = 3 * (2 * r->lines + 1)};
+    for (int i = 0; i + 1 < t->count; ++i) {
+        const follow_turn *a = &t->turns[i], *b = a + 1;
+        double turn[3][3], change[3][UNKNOWNS], normal[3][3] = {{0.0}}, right[3] = {0.0};
+        if (b->time - a->time > 1.5 * usual)
+            continue;
+        turning_of(r, a->time, b->time, turn, change);
+        follow_face(t, b);
+        compare(t, a, b, (const double(*)[3])turn, normal, right);
+        add_turning(e, change, (const double(*)[3])normal, right);
+    }
+    for (int p = 0; p < e->count; ++p)
+        e->normal[(e->count + 1) * p] += RIDGE;
+    if (!follow_solve(e->normal, e->right, e->count))
+        return 0;
+    for (int p = 0; p < e->count; ++p)
+        r->rate[p] += e->right[p];
+    return 1;
+}
+
+void follow_rhythm_turning(const follow_rhythm *r, double from, double to, double turn[3][3])
+{
+    double unused[3][UNKNOWNS];
+    turning_of(r, from, to, turn, unused);
+}
+
+/* A line more on each side; what is new begins as rolling has it: W = e x v / R. */
+static void widen(const follow_turning *t, follow_rhythm *r)
+{
+    double rate[UNKNOWNS], unused[2];
+    const int had = 2 * (2 * r->lines + 1), has = had + 4;
+    memcpy(rate, r->rate, sizeof rate);
+    ++r->lines;
+    (void)fit_places(t, t->count, r, 0);
+    memset(r->rate, 0, sizeof r->rate);
+    for (int k = 0; k < has; ++k)
+        r->rate[k] = -arrow(r, k / 2, r->start, unused) * r->place[k] / t->millimetres;
+    if (had > 2) {
+        memcpy(r->rate + 2, rate, (size_t)had * sizeof *rate);
+        memcpy(r->rate + has, rate + had, (size_t)(had / 2) * sizeof *rate);
+    }
+}
+
+int follow_rhythm_begin(follow_turning *turning, double usual, follow_rhythm *rhythm)
+{
+    equations e;
+    *rhythm = (follow_rhythm){.start = turning->turns[0].time};
+    if (!goes_round(turning, rhythm) || !find_rates(turning, rhythm))
+        return 0;
+    const int most = most_lines(rhythm, usual, FACE_LINES);
+    rhythm->lines = 0;
+    while (rhythm->lines < most) {
+        widen(turning, rhythm);
+        for (int repeat = 0; repeat < FACE_REPEATS; ++repeat)
+            if (!fit_faces(turning, usual, rhythm, &e))
+                return 0;
+    }
+    return most > 0;
 }
 
 /* So many lines.  Returns Schwarz's criterion, by which each number of the rhythm has to earn its place. */
@@ -312,8 +471,7 @@ void follow_rhythm_find(const follow_turning *turning, double usual, follow_rhyt
     double least = INFINITY;
     if (!goes_round(turning, &tried) || !find_rates(turning, &tried))
         return;
-    const double fastest = FASTEST * FST_TWO_PI / usual - fabs(tried.rates[0]);
-    const int most = (int)fmin(FOLLOW_LINES, fastest / fabs(tried.rates[1]));
+    const int most = most_lines(&tried, usual, FOLLOW_LINES);
     equations e;
     for (int lines = 0; lines <= most; ++lines) {
         tried.lines = lines;

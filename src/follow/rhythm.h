@@ -23,11 +23,21 @@ typedef struct follow_rhythm {
     double missing; /* of a component of the slip, in lines that it does not have: mm/s */
 } follow_rhythm;
 
+/* The usual time from a frame to the next (s); `room` is for as many numbers as there are frames. */
+double follow_usual_step(const follow_turning *turning, double *room);
+
 /* Find it in the good frames, which usually are `usual` (s) apart. */
 void follow_rhythm_find(const follow_turning *turning, double usual, follow_rhythm *rhythm);
+
+/* Find it before any rotation is known: by the W that takes each face to the next one, from where rolling would have it.
+ * follow_light_begin() comes first.  Returns whether places repeat themselves. */
+int follow_rhythm_begin(follow_turning *turning, double usual, follow_rhythm *rhythm);
 
 /* The place (mm), the velocity (mm/s) and W (rad/s) of what repeats itself. */
 void follow_rhythm_place(const follow_rhythm *rhythm, double time, double place[2], double velocity[2]);
 void follow_rhythm_rate(const follow_rhythm *rhythm, double time, double rate[3]);
+
+/* The turning of the bead from one time to another. */
+void follow_rhythm_turning(const follow_rhythm *rhythm, double from, double to, double turn[3][3]);
 
 #endif

@@ -27,6 +27,8 @@ enum { ANGLES = 48, LOOKS = 4, MARGIN = 3, GRID = 20, MOST_INSIDE = 4096 };
 #define LEAST_SHADE 0.08 /* of the bead's contrast: less does not widen the bead */
 #define SAME_SIDE 0.85   /* of 1, where the shadow is on the same side in all samples; a half circle has 0.64 */
 #define SURELY 0.2       /* pixels: a diameter is not known better */
+#define LARGE 0.9        /* of the samples have smaller circles */
+#define LEAST_WHOLE 0.7  /* of such a large circle: a smaller one is that of a mark */
 #define MOST_SHADE 0.75  /* of the bead's contrast: the rest must show the bead */
 
 /* By which part of the background's level the pixels around a spot are darker; brighter, of white. */
@@ -212,11 +214,37 @@ static double find_shade(follow_outline *outline, double contrast, double *where
     return same && odd > LEAST_SHADE * contrast ? fmin(most, MOST_SHADE * contrast) : 0.0;
 }
 
+/* A dot on the bead may step more than the bead's outline, which no sample that shows less dots does: leave out circles that are much
+ * smaller than the large ones. */
+static void leave_out_dots(follow_outline *o)
+{
+    double sorted[FOLLOW_SAMPLES];
+    int kept = 0;
+    memcpy(sorted, o->diameters, (size_t)o->seen * sizeof *sorted);
+    qsort(sorted, (size_t)o->seen, sizeof *sorted, fst_ascending);
+    const double least = LEAST_WHOLE * sorted[(int)(LARGE * (o->seen - 1) + 0.5)];
+    for (int i = 0; i < o->seen; ++i) {
+        if (o->diameters[i] < least)
+            continue;
+        o->diameters[kept] = o->diameters[i];
+        o->contrasts[kept] = o->contrasts[i];
+        memcpy(o->side[kept], o->side[i], sizeof o->side[i]);
+        for (int k = 0; k < FOLLOW_HALVES; ++k)
+            o->halves[k][kept] = o->halves[k][i];
+        for (int k = 0; k < FOLLOW_SECTORS; ++k)
+            for (int bin = 0; bin < FOLLOW_BEYOND; ++bin)
+                o->beyond[k][bin][kept] = o->beyond[k][bin][i];
+        ++kept;
+    }
+    o->seen = kept;
+}
+
 void follow_outline_decide(follow_outline *outline, double sign)
 {
     double where, low = INFINITY, high = 0.0, half[FOLLOW_HALVES];
     if (outline->seen == 0)
         return;
+    leave_out_dots(outline);
     const size_t seen = (size_t)outline->seen;
     const double contrast = fst_median(outline->contrasts, seen);
     outline->shade = find_shade(outline, contrast, &where);

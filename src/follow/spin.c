@@ -3,7 +3,7 @@
  * Over eleven frames W and the velocity are polynomials of sixth order in time, fitted to the frame and its neighbours.  A
  * rotation counts by what its frame knows of it: a frame that shows but one dot knows nothing of the turning about it.
  * By how much all rotations are off such smooth paths, beyond what was expected, tells by how much their errors have
- * to be widened.
+ * to be widened.  Of a motion that repeats itself (rhythm.c) frames that show no mark are known by those before and after.
  */
 #include "follow/rhythm.h"
 
@@ -32,6 +32,8 @@ enum {
 #define MOST_ERROR 0.15
 /* Chi^2 of nine degrees of freedom exceeds this once in a thousand: a rotation in such a window is wrong. */
 #define MOST_CHI2 27.9
+/* So many frames in a row err alike. */
+#define ALIKE 5.0
 /* The mean of chi^2 of 15 degrees of freedom, which the wider window leaves, over its median. */
 #define MEDIAN_CHI 1.046
 
@@ -278,13 +280,6 @@ static int collect(const follow_turning *t, int i, int side, double usual, windo
     return w->count >= 2 * side && middle > 0 && middle + 1 < w->count ? middle : -1;
 }
 
-static double usual_step(const follow_turning *t, double *room)
-{
-    for (int i = 0; i + 1 < t->count; ++i)
-        room[i] = t->turns[i + 1].time - t->turns[i].time;
-    return fst_median(room, (size_t)(t->count - 1));
-}
-
 /* By how much rotations are off smooth ones, over what was expected, and the error of a place, mm.  These windows
  * are wider than those from which W follows: errors of neighbouring frames are alike, so a narrow window would not show
  * them, nor that W changes faster than its polynomial. */
@@ -306,15 +301,14 @@ static void scatter(const follow_turning *t, const follow_rhythm *rhythm, double
     *place = sqrt(off[0] / fmax(1.0, off[1]));
 }
 
-/* The error of a direction n by what a frame alone knows: those of its neighbours hang together with its own, so that
- * their mean is no better. */
-static double across(const follow_turn *f, const double n[3])
+/* The error of a direction n by what is known of a rotation. */
+static double across(const double known[3][3], const double n[3])
 {
     double sum = 0.0;
     for (int k = 0; k < 3; ++k) {
         double a[9], column[3] = {k == 0, k == 1, k == 2};
         for (int i = 0; i < 9; ++i)
-            a[i] = f->known[i / 3][i % 3] + (i % 4 == 0 ? 1e-3 : 0.0);
+            a[i] = known[i / 3][i % 3] + (i % 4 == 0 ? 1e-3 : 0.0);
         if (!follow_solve(a, column, 3))
             return INFINITY;
         for (int i = 0; i < 3; ++i) /* n turns by what is across it */
@@ -334,7 +328,8 @@ static void tell(const follow_turning *t, const follow_turn *f, const window *w,
         rate += c[(UNKNOWN + 1) * (3 + i)] / 3.0;
         flat += i < 2 ? 0.5 * c[(UNKNOWN + 1) * (3 + i)] : 0.0;
     }
-    told->n_error = widen * across(f, told->n);
+    /* By what the frame alone knows: its neighbours err alike, so that their mean is no better. */
+    told->n_error = widen * across(f->known, told->n);
     if (!(told->n_error < MOST_ERROR))
         for (int i = 0; i < 3; ++i)
             told->n[i] = told->n_error = NAN;
@@ -350,9 +345,10 @@ static void tell(const follow_turning *t, const follow_turn *f, const window *w,
     told->slip_error = hypot(factor * place, t->millimetres * widen * sqrt(flat)) / usual;
 }
 
-/* What all windows tell, beyond a rhythm. */
-static void tell_all(const follow_turning *t, const follow_rhythm *rhythm, double usual, const double axis[3],
-                     double *room, fst_turning *told)
+/* What all windows tell, beyond a rhythm; the error of W is INFINITY where the rotation is wrong.  Returns by how much errors are
+ * wider than frames alone say. */
+static double tell_all(const follow_turning *t, const follow_rhythm *rhythm, double usual, const double axis[3],
+                       double *room, fst_turning *told)
 {
     double widen, place;
     scatter(t, rhythm, usual, room, &widen, &place);
@@ -360,9 +356,14 @@ static void tell_all(const follow_turning *t, const follow_rhythm *rhythm, doubl
         window w = {.rhythm = rhythm};
         const int middle = collect(t, i, SIDE, usual, &w);
         told[i] = (fst_turning){{NAN, NAN, NAN}, NAN, {NAN, NAN, NAN}, NAN, {NAN, NAN}, NAN};
-        if (middle >= 0 && fit(&w, middle) && w.chi2 < MOST_CHI2 * widen * widen)
+        if (middle < 0 || !fit(&w, middle))
+            continue;
+        if (w.chi2 < MOST_CHI2 * widen * widen)
             tell(t, &t->turns[i], &w, usual, widen, place, axis, &told[i]);
+        else
+            told[i].w_error = INFINITY;
     }
+    return widen;
 }
 
 /* The roots of the mean squares of W, the slip and the error of the slip. */
@@ -384,26 +385,75 @@ static sizes sizes_of(const fst_turning *told, int count)
     return (sizes){sqrt(s.w / known), sqrt(s.slip / known), sqrt(s.slip_error / known)};
 }
 
-/* Where less is left of a motion that repeats itself than windows err by, the rhythm tells W and slip.  What is left is their
- * error: chance, or by how much the motion does not repeat itself.  Returns whether it was so. */
-static int keep_rhythm(const follow_turning *t, const follow_rhythm *rhythm, const fst_turning *left,
-                       fst_turning *told)
+/* What is known of a rotation a turn later, `unsure` (rad^2) being what each component of the turn adds: (A^-1 + q)^-1. */
+static void carry(const double known[3][3], const double from[3][3], const double to[3][3], double unsure,
+                  double later[3][3])
+{
+    double turn[3][3], turned[3][3], a[3][3];
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            turn[i][j] = fst_dot(to[i], from[j], 3);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            turned[i][j] = fst_dot(turn[i], known[j], 3);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            a[i][j] = fst_dot(turned[i], turn[j], 3);
+    for (int j = 0; j < 3; ++j) {
+        double left[9], column[3] = {a[0][j], a[1][j], a[2][j]};
+        for (int i = 0; i < 9; ++i)
+            left[i] = unsure * a[i / 3][i % 3] + (i % 4 == 0 ? 1.0 : 0.0);
+        const int solved = follow_solve(left, column, 3);
+        for (int i = 0; i < 3; ++i)
+            later[i][j] = solved ? column[i] : 0.0;
+    }
+}
+
+/* What all frames know of each rotation, where what repeats itself tells the turning between them: `sure` gets it. */
+static void know(const follow_turning *t, double widen, double unsure, double (*sure)[3][3])
+{
+    const double part = 1.0 / (ALIKE * widen * widen);
+    for (int way = 1; way >= -1; way -= 2) {
+        double others[3][3] = {{0.0}}, all[3][3];
+        for (int k = 0; k < t->count; ++k) {
+            const int i = way > 0 ? k : t->count - 1 - k;
+            const follow_turn *f = &t->turns[i];
+            for (int j = 0; j < 9; ++j) {
+                const double own = f->good ? part * f->known[j / 3][j % 3] : 0.0;
+                all[j / 3][j % 3] = own + others[j / 3][j % 3];
+                sure[i][j / 3][j % 3] =
+                    way > 0 ? all[j / 3][j % 3] : sure[i][j / 3][j % 3] + others[j / 3][j % 3];
+            }
+            if (k + 1 < t->count)
+                carry((const double(*)[3])all, f->pose.turn, f[way].pose.turn, ALIKE * unsure * unsure, others);
+        }
+    }
+}
+
+/* Where less is left of a motion that repeats itself than windows err by, the rhythm tells W and slip, also in frames that show
+ * no marks.  What is left is their error: chance, or by how much the motion does not repeat itself.  Returns whether it was so. */
+static int keep_rhythm(const follow_turning *t, const follow_rhythm *rhythm, double usual, double widen,
+                       const double axis[3], const fst_turning *left, double (*sure)[3][3], fst_turning *told)
 {
     const sizes beyond = sizes_of(left, t->count), plain = sizes_of(told, t->count);
     if (!(beyond.slip < plain.slip_error))
         return 0;
+    const double w_error = hypot(beyond.w, rhythm->missing / t->millimetres);
+    know(t, widen * fmax(1.0, beyond.slip / beyond.slip_error), usual * w_error, sure);
     for (int i = 0; i < t->count; ++i) {
         const double time = t->turns[i].time;
         double place[2], v[2], *w = told[i].w;
-        told[i] = left[i];
-        told[i].n_error *= fmax(1.0, beyond.slip / beyond.slip_error);
-        if (isnan(left[i].slip_error))
+        told[i] = (fst_turning){{NAN, NAN, NAN}, NAN, {NAN, NAN, NAN}, NAN, {NAN, NAN}, NAN};
+        if (isinf(left[i].w_error) || !t->turns[i].good)
             continue;
+        for (int k = 0; k < 3; ++k)
+            told[i].n[k] = fst_dot(t->turns[i].pose.turn[k], axis, 3);
+        told[i].n_error = across((const double(*)[3])sure[i], told[i].n);
         follow_rhythm_rate(rhythm, time, w);
         follow_rhythm_place(rhythm, time, place, v);
         told[i].slip[0] = v[0] - t->millimetres * w[1];
         told[i].slip[1] = v[1] + t->millimetres * w[0];
-        told[i].w_error = hypot(beyond.w, rhythm->missing / t->millimetres);
+        told[i].w_error = w_error;
         told[i].slip_error = hypot(beyond.slip, rhythm->missing);
     }
     return 1;
@@ -414,24 +464,29 @@ fst_status follow_spin(const follow_turning *turning, fst_track *track, fst_erro
     const size_t count = (size_t)turning->count;
     double axis[3], *room = malloc((count + 1) * sizeof *room);
     fst_turning *told = malloc((2 * count + 1) * sizeof *told);
-    fst_status status = room && told
+    double(*sure)[3][3] = malloc((count + 1) * sizeof *sure);
+    fst_status status = room && told && sure
                             ? fst_track_add_turning(track, error)
                             : fst_fail(error, FST_NO_MEMORY, "track", "no memory for the turning of a bead");
     if (status == FST_OK && turning->count > 1) {
-        const double usual = usual_step(turning, room);
+        const double usual = follow_usual_step(turning, room);
         follow_rhythm rhythm = {.lines = 0};
         if (!follow_sphere_axis(&turning->sphere, axis))
             axis[0] = axis[1] = axis[2] = NAN;
-        tell_all(turning, &rhythm, usual, axis, room, told);
+        (void)tell_all(turning, &rhythm, usual, axis, room, told);
         follow_rhythm_find(turning, usual, &rhythm);
         if (rhythm.lines > 0) {
-            tell_all(turning, &rhythm, usual, axis, room, told + count);
-            if (keep_rhythm(turning, &rhythm, told + count, told))
+            const double widen = tell_all(turning, &rhythm, usual, axis, room, told + count);
+            if (keep_rhythm(turning, &rhythm, usual, widen, axis, told + count, sure, told))
                 track->rhythm = rhythm.lines;
         }
         for (size_t i = 0; i < count; ++i)
             track->turning[turning->turns[i].frame] = told[i];
+        for (size_t i = 0; i < track->rows; ++i)
+            if (isinf(track->turning[i].w_error))
+                track->turning[i].w_error = NAN;
     }
+    free(sure);
     free(told);
     free(room);
     return status;

@@ -3,13 +3,15 @@
  * A bead that is filmed 240 times a second turns by up to 120 degrees from a frame to the next, so that little of what
  * was seen is seen again.  What helps is that it nearly rolls, and that its surface is learnt on the way:
  *
- *   1. From a frame on, each next one is predicted: it turned as before, but for what rolling changed.  Rotations
+ *   1. From a frame on, each next one is predicted: by what repeats itself (rhythm.c), which all pairs of neighbouring
+ *      faces tell together; where nothing does, it turned as before, but for what rolling changed.  Rotations
  *      around the prediction are tried against the surface seen so far, the best are refined by Gauss and Newton's
  *      method, and the face is added to the surface.
  *   2. That is tried from several frames; the one from which the next frames are foretold best begins the whole film,
  *      forwards and then backwards.
  *   3. A few times over all frames: the surface from all faces, the light on each point of the face, and each rotation
- *      against that surface, from where it was and from where its neighbours would have it.
+ *      against that surface, from where it was and from where its neighbours would have it.  Where some frames show few
+ *      marks, or none, each rotation is also drawn to where what repeats itself has it between its neighbours.
  */
 #include "follow/pose.h"
 
@@ -22,6 +24,7 @@
 #include "base/order.h"
 #include "base/turn.h"
 #include "base/watch.h"
+#include "follow/rhythm.h"
 
 enum {
     WINDOWS = 24,
@@ -35,11 +38,16 @@ enum {
     UNTWISTS = 5
 };
 
-#define WIDE 1.1            /* rad around the prediction: at the start ... */
-#define USUAL 0.5           /* ... and later */
+#define WIDE 1.1     /* rad around the prediction: at the start ... */
+#define LITTLE 0.25  /* ... and around what repeats itself */
+#define USUAL 0.5    /* ... and later */
+#define ROUGHLY 0.04 /* rad in a frame by which the bead may turn otherwise than it repeats: at the start ... */
+#define LATER 0.02   /* ... and once it has been found by the rotations */
+#define NEARLY_ALL 0.95     /* of the frames ... */
+#define ABOUT_AS_WELL 3.0   /* ... and times the median error of a rotation */
 #define LEAST_SPREAD 2.0    /* gray levels that marks change on a point of the face */
 #define ENOUGH 0.5          /* of what is foretold from a frame: no better one is looked for */
-#define LEAST_GAIN 2e-5     /* of what is explained, for another pass */
+#define LEAST_GAIN 5e-6     /* of what is explained, for another pass */
 #define MOST_MOVED 0.05     /* rad in a pass, by a rotation that finds its place */
 #define LEAST_KEPT 0.5      /* of a pass's movement by the next */
 #define LEAP 8.0            /* times the movement of a pass */
@@ -54,6 +62,17 @@ static void rolls(const follow_turning *t, const follow_turn *from, const follow
     w[0] = -(to->place[1] - from->place[1]) / step;
     w[1] = (to->place[0] - from->place[0]) / step;
     w[2] = 0.0;
+}
+
+/* The rotation that what repeats itself has in the next frame, or (way < 0) in the one before, of which `step` is. */
+static void stepped(const follow_turn *from, const follow_turn *step, int way, double turn[3][3])
+{
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            turn[i][j] = 0.0;
+            for (int k = 0; k < 3; ++k)
+                turn[i][j] += (way > 0 ? step->step[i][k] : step->step[k][i]) * from->pose.turn[k][j];
+        }
 }
 
 /* Follow the bead from frame `from` towards frame `to`, which is not reached; frame `from` is known, and its face shown.
@@ -73,8 +92,15 @@ static double follow(follow_turning *t, int from, int to, int shows)
         follow_face(t, f);
         f->pose = before->pose;
         f->pose.gain = 1.0;
-        fst_turn_by(f->pose.turn, by);
-        follow_search(t, f, count < EARLY ? WIDE : USUAL, &f->pose);
+        f->trust = t->trust;
+        if (t->trust > 0.0) {
+            stepped(before, way > 0 ? f : before, way, f->pose.turn);
+            memcpy(f->expected, f->pose.turn, sizeof f->expected);
+            follow_search(t, f, LITTLE, &f->pose);
+        } else {
+            fst_turn_by(f->pose.turn, by);
+            follow_search(t, f, count < EARLY ? WIDE : USUAL, &f->pose);
+        }
         for (int k = 0; k < t->points; ++k)
             spread += t->used[k]
                           ? follow_bound(t->spread[k] * t->spread[k] / (t->sigma[k] * t->sigma[k])) / t->points
@@ -121,12 +147,74 @@ static int foretell(const follow_turning *t, int i, int way, follow_pose *pose)
     return 1;
 }
 
+/* Expect what repeats itself, so surely (rad) from a frame to the next. */
+static void expect_rhythm(follow_turning *t, const follow_rhythm *rhythm, double surely)
+{
+    t->trust = 1.0 / (surely * surely);
+    for (int i = 1; i < t->count; ++i)
+        follow_rhythm_turning(rhythm, t->turns[i - 1].time, t->turns[i].time, t->turns[i].step);
+}
+
+/* How unsure a frame alone leaves its rotation (rad). */
+static double unsure(follow_turning *t, follow_turn *f)
+{
+    double sum = 0.0;
+    follow_known(t, f);
+    for (int j = 0; j < 3; ++j) {
+        double known[9], column[3] = {j == 0, j == 1, j == 2};
+        for (int i = 0; i < 9; ++i)
+            known[i] = f->known[i / 3][i % 3] + (i % 4 == 0 ? 1.0 : 0.0);
+        sum += follow_solve(known, column, 3) ? column[j] / 3.0 : 1.0;
+    }
+    return sqrt(sum);
+}
+
+/* Where all frames tell their rotation about as well, expect no more of them.  Else expect what the rotations that were found repeat,
+ * for those frames which show but one mark, or none. */
+static void expect_better(follow_turning *t, double *room)
+{
+    const int most = (int)(NEARLY_ALL * (t->count - 1));
+    follow_rhythm rhythm;
+    for (int i = 0; i < t->count; ++i)
+        room[i] = unsure(t, &t->turns[i]);
+    qsort(room, (size_t)t->count, sizeof *room, fst_ascending);
+    if (room[most] < ABOUT_AS_WELL * room[t->count / 2]) {
+        t->trust = 0.0;
+        return;
+    }
+    follow_rhythm_find(t, follow_usual_step(t, room), &rhythm);
+    if (rhythm.lines > 0)
+        expect_rhythm(t, &rhythm, LATER);
+}
+
+/* What the neighbours of a frame expect of its rotation. */
+static void expect(follow_turning *t, int i)
+{
+    follow_turn *f = &t->turns[i];
+    double other[3][3], by[3];
+    const int both = i > 0 && i + 1 < t->count;
+    f->trust = t->trust * (both ? 2.0 : 1.0);
+    if (!(t->trust > 0.0))
+        return;
+    if (i > 0)
+        stepped(f - 1, f, 1, f->expected);
+    if (i + 1 < t->count)
+        stepped(f + 1, f + 1, -1, i > 0 ? other : f->expected);
+    if (!both)
+        return;
+    fst_turn_between((const double(*)[3])f->expected, (const double(*)[3])other, by);
+    for (int k = 0; k < 3; ++k)
+        by[k] *= 0.5;
+    fst_turn_by(f->expected, by);
+}
+
 /* Improve the pose of a frame: from where it was, and in the first passes from where its neighbours would have it. */
 static void improve(follow_turning *t, int i, int pass)
 {
     const int steps = pass < SEARCHES ? 12 : 3;
     follow_turn *f = &t->turns[i];
     follow_face(t, f);
+    expect(t, i);
     follow_refine(t, f, steps, &f->pose);
     for (int way = -1; way <= 1 && pass < SEARCHES; way += 2) {
         follow_pose other;
@@ -266,7 +354,7 @@ static fst_status improve_all(follow_turning *t, const fst_progress *progress, d
         if (pass > 0)
             follow_light_learn(t);
         for (int i = 0; i < t->count; ++i)
-            improve(t, i, pass);
+            improve(t, pass % 2 ? t->count - 1 - i : i, pass);
         follow_centre(t);
         judge(t, 3.0, room);
         *explained = follow_explain(t);
@@ -276,6 +364,10 @@ static fst_status improve_all(follow_turning *t, const fst_progress *progress, d
         if (rests == 0 && *explained <= before + LEAST_GAIN && untwists++ < UNTWISTS && follow_untwist(t)) {
             before = -INFINITY;
             rests = RESTS;
+        }
+        if (pass == SEARCHES && t->trust > 0.0) {
+            expect_better(t, room);
+            before = -INFINITY;
         }
         status = fst_tell(progress, 0.8 + 0.2 * pass / PASSES, NULL, error);
     }
@@ -288,7 +380,6 @@ fst_status follow_turning_find(follow_turning *turning, const fst_progress *prog
     follow_turning *t = turning;
     double *room = malloc((size_t)(t->count + 1) * sizeof *room);
     past *pasts = calloc((size_t)(t->count + 1), sizeof *pasts);
-    int next = 0;
     *explained = 0.0;
     if (!room || !pasts) {
         free(room);
@@ -297,10 +388,19 @@ fst_status follow_turning_find(follow_turning *turning, const fst_progress *prog
     }
     fst_status status = FST_OK;
     const int marked = t->count >= WINDOW && follow_light_begin(t) >= LEAST_SPREAD;
-    while (marked && status == FST_OK && next < WINDOWS && *explained < LEAST_EXPLAINED) {
-        status = find_roughly(t, progress, &next, room, error);
-        if (status == FST_OK)
-            status = improve_all(t, progress, room, pasts, explained, error);
+    for (int repeats = 1; repeats >= 0 && marked && *explained < LEAST_EXPLAINED; --repeats) {
+        follow_rhythm rhythm;
+        t->trust = 0.0;
+        if (repeats && !follow_rhythm_begin(t, follow_usual_step(t, room), &rhythm))
+            continue;
+        if (repeats)
+            expect_rhythm(t, &rhythm, ROUGHLY);
+        for (int next = 0; status == FST_OK && next < WINDOWS && *explained < LEAST_EXPLAINED;) {
+            status = find_roughly(t, progress, &next, room, error);
+            if (status == FST_OK)
+                status = improve_all(t, progress, room, pasts, explained, error);
+            next = repeats ? WINDOWS : next; /* a wrong rhythm does not become right */
+        }
     }
     const int is_found = *explained >= LEAST_EXPLAINED;
     if (!is_found)

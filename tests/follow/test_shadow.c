@@ -19,6 +19,7 @@ typedef struct scene {
     double lit;               /* by how much lighter its lit side is, in parts of the contrast */
     double dark, away, fuzzy; /* of the shadow: parts of the contrast; bead's diameters; bead's radii */
     double blur;              /* pixels that it moves in an exposure */
+    double dot; /* radius, in the bead's, of a black dot on it, which one half of the frames show */
 } scene;
 
 static const double side = 0.7; /* rad, where the shadow is */
@@ -50,8 +51,8 @@ static double darkness(const scene *s, double x, double y)
     return s->contrast * bead * (1.0 - lit) + fabs(s->contrast) * (1.0 - bead) * shade;
 }
 
-static void paint(const scene *s, const double place[2], double turn, uint64_t *chance, const float *level,
-                  unsigned char *out)
+static void paint(const scene *s, int dot, const double place[2], double turn, uint64_t *chance,
+                  const float *level, unsigned char *out)
 {
     const int moments = 1 + (int)s->blur;
     const double reach = 4.0 * s->radius + s->blur + 4.0, along[2] = {cos(turn), sin(turn)};
@@ -64,6 +65,8 @@ static void paint(const scene *s, const double place[2], double turn, uint64_t *
                 const double way = s->blur * ((k + 0.5) / moments - 0.5);
                 dark += darkness(s, x - way * along[0], y - way * along[1]) / moments;
             }
+            if (dot)
+                dark += (0.9 - dark) * disc(hypot(x - 0.2 * s->radius, y), s->dot * s->radius, 0.8);
             const double shown = (double)level[at] * (1.0 - dark) + noise(chance);
             out[at] = (unsigned char)(fmax(0.0, fmin(255.0, shown)) + 0.5);
         }
@@ -121,7 +124,8 @@ static outcome look_at(const scene *s)
         const double turn = FST_TWO_PI * (double)(fst_draw(&chance) >> 11) * 0x1p-53;
         places[k][0] = 120.0 + 45.0 * cos(turn);
         places[k][1] = 100.0 + 45.0 * sin(turn);
-        paint(s, places[k], turn + 0.5 * FST_PI, &chance, still.level, still.samples + (size_t)k * SIZE);
+        paint(s, s->dot > 0.0 && k % 9 < 5, places[k], turn + 0.5 * FST_PI, &chance, still.level,
+              still.samples + (size_t)k * SIZE);
     }
     assert_int_equal(follow_blobs_begin(&blobs, &still, &error), FST_OK);
     assert_int_equal(follow_learn(&blobs, "film", 1, NULL, &out.look, &error), FST_OK);
@@ -175,11 +179,22 @@ static void without_a_shadow(void **state)
     }
 }
 
+/* A dot on a light bead has a steeper outline than the bead, and is not taken for it. */
+static void with_a_dot(void **state)
+{
+    (void)state;
+    const scene s = {.radius = 12.5, .contrast = 0.3, .fuzzy = 1.0, .dot = 0.4};
+    const outcome o = look_at(&s);
+    assert_true(fabs(o.look.diameter - 25.0) < 0.3);
+    assert_true(o.look.diameter_error < 0.3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(beside_a_shadow),
         cmocka_unit_test(without_a_shadow),
+        cmocka_unit_test(with_a_dot),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
