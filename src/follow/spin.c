@@ -317,6 +317,14 @@ static double across(const double known[3][3], const double n[3])
     return sqrt(fmax(0.0, sum));
 }
 
+static void drop_unsure(fst_turning *told)
+{
+    for (int i = 0; i < 3 && !(told->n_error < MOST_ERROR); ++i)
+        told->n[i] = NAN;
+    if (isnan(told->n[0]))
+        told->n_error = NAN;
+}
+
 /* What a window tells of its frame. */
 static void tell(const follow_turning *t, const follow_turn *f, const window *w, double usual, double widen,
                  double place, const double axis[3], fst_turning *told)
@@ -330,9 +338,7 @@ static void tell(const follow_turning *t, const follow_turn *f, const window *w,
     }
     /* By what the frame alone knows: its neighbours err alike, so that their mean is no better. */
     told->n_error = widen * across(f->known, told->n);
-    if (!(told->n_error < MOST_ERROR))
-        for (int i = 0; i < 3; ++i)
-            told->n[i] = told->n_error = NAN;
+    drop_unsure(told);
     if (!(widen * sqrt(rate) < MOST_ERROR))
         return;
     for (int i = 0; i < 3; ++i)
@@ -449,6 +455,7 @@ static int keep_rhythm(const follow_turning *t, const follow_rhythm *rhythm, dou
         for (int k = 0; k < 3; ++k)
             told[i].n[k] = fst_dot(t->turns[i].pose.turn[k], axis, 3);
         told[i].n_error = across((const double(*)[3])sure[i], told[i].n);
+        drop_unsure(&told[i]);
         follow_rhythm_rate(rhythm, time, w);
         follow_rhythm_place(rhythm, time, place, v);
         told[i].slip[0] = v[0] - t->millimetres * w[1];

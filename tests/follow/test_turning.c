@@ -300,7 +300,7 @@ static void spins_of(kind what, uint64_t seed, double most)
         rate(what, STEP * i, w);
         slip_of(what, STEP * i, slip);
         if (hidden(what, i))
-            assert_true(f->n_error > 0.02);
+            assert_true(f->n_error > 0.02 && f->n_error < 0.15);
         for (int j = 0; j < 3 && isfinite(f->n_error); ++j)
             assert_true(fabs(f->n[j] - fst_dot(true_turns[i][j], north, 3)) < 6.0 * f->n_error);
         if (!isfinite(f->slip[0]))
