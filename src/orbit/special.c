@@ -362,47 +362,52 @@ typedef struct appearing {
 } appearing;
 
 /* Where it is nothing.  It lasts as long as a push, or a slip, stays beyond the summit of a parabola: its time grows as
- * the root of the distance, and its square straight. */
-static double appears_at(const appearing *past)
+ * the root of the distance, and its square straight.  While one is known, by the usual slope, over `unit`, the way of
+ * length 1 towards the grazing. */
+static double appears_at(const appearing *past, double unit)
 {
     const double one = past->shortest[0] * past->shortest[0], two = past->shortest[1] * past->shortest[1];
-    return past->at[0] + one * (past->at[1] - past->at[0]) / (one - two);
+    return isnan(two) ? past->at[0] + 2.0 * one * unit
+                      : past->at[0] + one * (past->at[1] - past->at[0]) / (one - two);
 }
 
-/* Where between `at` to look for a grazing next that is thought to be at `place`: the end further away comes close to
- * that. */
-static double guess_grazing(double place, const double at[2])
+/* Where between `at` to look for a grazing next that is thought to be at `place`, and need not be known closer than
+ * `close`: the end further away comes near to it.  `blind` tries before told nothing of the place. */
+static double guess_grazing(const appearing *past, double place, const double at[2], double close, int blind)
 {
-    const int near = at[1] - place < place - at[0];
-    const double x = place + 0.05 * (place - at[near]);
-    return (x - at[0]) * (at[1] - x) > 0.0 ? x : 0.5 * (at[0] + at[1]);
+    const double gap = at[1] - at[0], middle = at[0] + 0.5 * gap;
+    if (blind > 1 || (isnan(past->at[1]) && !(place > at[0] && place < at[1])))
+        return middle;
+    const int near = place > middle;
+    const double off = fmax((near ? at[1] - place : place - at[0]), 0.0);
+    const double beyond = blind || off == 0.0 ? 0.1 * gap : off + fmax(0.05 * off, 0.4 * close);
+    return beyond >= gap ? middle : near ? at[1] - beyond : at[0] + beyond;
 }
 
 /* Dry friction: between a and b an orbit gains or loses a rest or a flight, where a slip just dies, or a push just passes
  * the edge of the cone of static friction.  The place is known as well as solutions can be found beside it,
- * where the return has a kink or a jump.  The closer they are, the dearer: the slip dies ever more slowly.  Which of
- * the two is the closer one. */
-static int enclose_grazing(const interval *i, double at[2], fst_node beside[2])
+ * where the return has a kink or a jump.  The closer they are, the dearer: the slip dies ever more slowly.  Brings the
+ * solutions beside it, at the places `at`, closer; which of the two is the closer one. */
+static int enclose_grazing(const interval *i, const fst_family *family, double at[2], fst_node beside[2])
 {
     enum { TRIES = 14 };
     const double length = i->b->length, wide = 0.01;
     const int rests = i->b->captures > i->a->captures;
-    appearing past = {.at = {rests, NAN}, .shortest = {(rests ? i->b : i->a)->shortest, NAN}};
+    const double unit = (rests ? -1.0 : 1.0) / length, close = GAP_AT_GRAZING / length;
+    appearing past = {.at = {at[rests], NAN}, .shortest = {beside[rests].shortest, NAN}};
     fst_node middle;
     fst_error ignored;
-    at[0] = 0.0, at[1] = 1.0;
-    beside[0] = *i->a, beside[1] = *i->b;
-    int poor = 0; /* guesses in a row that left more than half of the way */
-    for (int k = 0; k < TRIES && (at[1] - at[0]) * length > GAP_AT_GRAZING; ++k) {
+    int blind = 0; /* tries in a row on the side without it that left more than half of the way */
+    for (int k = 0; k < TRIES && at[1] - at[0] > close; ++k) {
         const double gap = at[1] - at[0];
-        const double x = poor < 2 ? guess_grazing(appears_at(&past), at) : 0.5 * (at[0] + at[1]);
+        const double x = guess_grazing(&past, appears_at(&past, unit), at, close, blind);
         const int from = x - at[0] > at[1] - x;
         beside[1].length = gap * length;
         /* Near a kink the tangent on its own side is the better guide. */
         const fst_status status =
             gap * length > wide
-                ? fst_node_between(i->family, &beside[0], &beside[1], (x - at[0]) / gap, &middle, &ignored)
-                : fst_node_ahead(i->family, &beside[from], (x - at[from]) * length, &middle, &ignored);
+                ? fst_node_between(family, &beside[0], &beside[1], (x - at[0]) / gap, &middle, &ignored)
+                : fst_node_ahead(family, &beside[from], (x - at[from]) * length, &middle, &ignored);
         if (status != FST_OK)
             break;
         const int side = middle.captures != i->a->captures;
@@ -410,9 +415,30 @@ static int enclose_grazing(const interval *i, double at[2], fst_node beside[2])
         beside[side] = middle;
         if (side == rests)
             past = (appearing){{x, past.at[0]}, {middle.shortest, past.shortest[0]}};
-        poor = poor < 2 && at[1] - at[0] > 0.5 * gap ? poor + 1 : 0;
+        blind = side != rests && blind < 2 && at[1] - at[0] > 0.5 * gap ? blind + 1 : 0;
     }
-    return at[1] - appears_at(&past) < appears_at(&past) - at[0];
+    return at[1] - appears_at(&past, unit) < appears_at(&past, unit) - at[0];
+}
+
+/* The same from a and b, by rough integrations; only the solutions that it ends with are made exact. */
+static int find_grazing(const interval *i, double at[2], fst_node beside[2])
+{
+    fst_family eased = *i->family;
+    fst_error ignored;
+    eased.tolerance = fmax(eased.tolerance, 1e-9);
+    eased.residual = 1e-7;
+    at[0] = 0.0, at[1] = 1.0;
+    beside[0] = *i->a, beside[1] = *i->b;
+    (void)enclose_grazing(i, &eased, at, beside);
+    for (int side = 0; side < 2; ++side) {
+        const fst_node *end = side ? i->b : i->a, rough = beside[side];
+        if (at[side] != side && (fst_node_ahead(i->family, &rough, 0.0, &beside[side], &ignored) != FST_OK ||
+                                 beside[side].captures != rough.captures)) {
+            beside[side] = *end; /* it is closer than the rough one could tell */
+            at[side] = side;
+        }
+    }
+    return enclose_grazing(i, i->family, at, beside);
 }
 
 static fst_status look_between(const fst_family *family, const fst_curve_sink *sink, const fst_node *a,
@@ -424,7 +450,7 @@ static fst_status report_grazing(const interval *i, fst_error *error)
     const double much = 1e-3;
     double at[2];
     fst_node beside[2], last = *i->b;
-    const int near = enclose_grazing(i, at, beside);
+    const int near = find_grazing(i, at, beside);
     fst_status status = fst_watch_ask(i->family->watch, error);
     const double gap = (at[1] - at[0]) * i->b->length;
     beside[0].length = at[0] * i->b->length;
