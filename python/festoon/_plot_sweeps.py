@@ -66,6 +66,12 @@ class _Side:
         return np.exp(made) if self.logarithmic else made
 
 
+def _dims_of(sweep: Any) -> Tuple[str, ...]:
+    """The names of a sweep's dimensions: that of a random axis, where it is drawn alone, is the axis' own."""
+    random = [axis.keyword for axis in sweep.axes if axis.random]
+    return tuple(random[0] if name == "draw" and len(random) == 1 else name for name in sweep.dims)
+
+
 def _regime_index(sweep: Any) -> Any:
     """The regimes as numbers, NaN where a run failed."""
     regime = sweep.regime
@@ -125,21 +131,21 @@ def sweep(
         _choose(y, ["regime", *RESULTS], "y")
     if kind is not None:
         _choose(kind, ["curves", "map"], "kind")
-    axes = {axis.keyword: axis for axis in s.axes}
-    if not s.dims or any(name not in axes for name in s.dims) or len(s.dims) > 2:
+    axes, own = {axis.keyword: axis for axis in s.axes}, _dims_of(s)
+    if not own or any(name not in axes for name in own) or len(own) > 2:
         raise BadInput(
             "sweep",
             f"a picture shows one or two parameters, not ({', '.join(s.dims)}): choose a part as in s[:, 0], or draw"
             " its numbers with matplotlib",
         )
-    dims = list(s.dims)
+    dims = list(own)
     if x is not None:
         _choose(x, dims, "x")
         dims.remove(x)
         dims.insert(0, x)
     if units == "given":
-        units = _style.units_over([axes[name].key for name in s.dims if len(axes[name].values) > 1])
-    sides = [_Side(s, s.dims.index(name), axes[name], units) for name in dims]
+        units = _style.units_over([axes[name].key for name in own if len(axes[name].values) > 1])
+    sides = [_Side(s, own.index(name), axes[name], units) for name in dims]
     if kind is None:
         few = len(sides) == 1 or min(len(side.values) for side in sides) <= _MOST_CURVES
         kind = "curves" if few else "map"
@@ -227,7 +233,7 @@ def _curves(s: Any, y: str, sides: List[_Side], units: str, free: bool, name: Op
             label=sides[1].text(i),
         )
     fixed = {"": y}
-    fixed.update({axis.key: "" if axis.keyword in s.dims else _text(axis.at(s._points.flat[0])) for axis in s.axes})
+    fixed.update({axis.key: "" if axis.keyword in _dims_of(s) else _text(axis.at(s._points.flat[0])) for axis in s.axes})
     drawn = _plot_several.Drawn(lib.fst_grid_base(s._grid), fixed, lines, marks, name, len(sides) == 1)
     several = _plot_several.beside(ax, drawn)
     first = levels = sum(one.levels for one in others)

@@ -763,7 +763,9 @@ class Bead(Parameters):
         return critical.critical(self._asked(), over, tolerance, progress)
 
     def field(self, x: Any, y: Any, *, height: Any = None, units: str = "scaled") -> Tuple[Any, Any]:
-        """The magnet's field and its gradient in the magnet's frame: (B, G), G[..., i, j] = dB_i/dx_j.
+        """The field and its gradient in the magnet's frame: (B, G), G[..., i, j] = dB_i/dx_j.
+
+        In a world it is that of all that makes one, at the time 0 on the laboratory's axes.
 
         `x` and `y` broadcast; they are in l and B in B0, or in m and T with ``units="si"``.  A text may carry a
         unit ("10 mm").  `height` is another one over the magnet's mid-plane than that of the bead's centre.

@@ -7,7 +7,7 @@ import numpy as np
 
 from ._errors import BadInput, Interrupted
 from ._given import numbers_in
-from ._native import dtype_of, ffi, lib
+from ._native import call, dtype_of, ffi, lib
 from ._quantities import quantity
 from .bead import Bead
 
@@ -32,12 +32,12 @@ def places(x: Any, y: Any, units: str, length: float) -> Tuple[Any, Any, Tuple[i
     return np.ascontiguousarray(xs).ravel(), np.ascontiguousarray(ys).ravel(), xs.shape
 
 
-def _in_pieces(function: Any, bead: Bead, count: int, arrays: Any) -> None:
+def _in_pieces(function: Any, model: Any, count: int, arrays: Any) -> None:
     """A function of the library over arrays, given with their numbers to a point; between pieces Python obeys Ctrl-C."""
     places = [(ffi.from_buffer("double[]", values), width) for values, width in arrays]
     try:
         for i in range(0, count, PIECE):
-            function(bead._flat_model, min(PIECE, count - i), *[values + width * i for values, width in places])
+            function(model, min(PIECE, count - i), *[values + width * i for values, width in places])
     except KeyboardInterrupt:
         raise Interrupted() from None
 
@@ -58,7 +58,7 @@ def of_states(bead: Bead, states: Any, name: str, shape: Tuple[int, ...]) -> Any
     made = np.empty(given.shape[:-1] + shape)
     if made.size:
         size = given.shape[-1]
-        _in_pieces(getattr(lib, f"pyf_{name}"), bead, given.size // size, [(given, size), (made, math.prod(shape))])
+        _in_pieces(getattr(lib, f"pyf_{name}"), bead._flat_model, given.size // size, [(given, size), (made, math.prod(shape))])
     return made
 
 
@@ -75,16 +75,21 @@ def observe(bead: Bead, states: Any) -> Any:
 
 def field(bead: Any, x: Any, y: Any, height: Any, units: str) -> Tuple[Any, Any]:
     """See Bead.field(); `bead` may also be a smoothed map."""
-    groups = lib.fst_model_groups(bead._flat_model)
+    model = bead._model
+    groups = lib.fst_model_groups(model)
     length, tesla = float(groups.length_unit), float(groups.field_unit)
     if units == "si" and math.isnan(tesla):
         raise BadInput("field", "B0 in tesla does not follow from the parameters: give magnet.b0 or bead.moment")
     if height is not None:
-        bead = bead.replace(model__h=float(_scaled(height, units, length)))
+        made, wanted = ffi.new("fst_model **"), float(_scaled(height, units, length))
+        if not (wanted > 0 or (wanted <= 0 and lib.fst_magnet_in_tesla(bead._params))):
+            raise BadInput("field", f"the height {height} is not a positive one")
+        call(lib.fst_field_model_new, bead._params, wanted, made)
+        model = ffi.gc(made[0], lib.fst_model_free)
     xs, ys, shape = places(x, y, units, length)
     b, grad = np.empty((*shape, 3)), np.empty((*shape, 3, 3))
     if xs.size:
-        _in_pieces(lib.pyf_field, bead, xs.size, [(xs, 1), (ys, 1), (b, 3), (grad, 9)])
+        _in_pieces(lib.pyf_field, model, xs.size, [(xs, 1), (ys, 1), (b, 3), (grad, 9)])
     if units == "si":
         b *= tesla
         grad *= tesla / length

@@ -38,7 +38,7 @@ class SmoothedMap(Tabled):
         params.magnet_map = field_map
         model = ffi.new("fst_model **")
         call(lib.fst_field_model_new, params, self.height / params.magnet_half_length, model)
-        self._flat_model = self._model = ffi.gc(model[0], lib.fst_model_free)
+        self._model = ffi.gc(model[0], lib.fst_model_free)
         groups = lib.fst_model_groups(self._model)
         self._length, self._tesla = float(groups.length_unit), float(groups.field_unit)
         self._facts = lib.fst_field_map_describe(fit_of or field_map)  # `fit` lies in it

@@ -68,10 +68,10 @@ static fst_status check_kinds(const fst_params *p, int bead, fst_error *error)
         return fst_fail(error, FST_BAD_INPUT, "model.dynamics",
                         "several beads move as rigid spheres: model.dynamics must be rigid");
     if (p->magnet_shape == FST_MAGNET_GRID)
-        return fst_fail(
-            error, FST_BAD_INPUT, "magnet.shape",
-            "beads that touch leave the plate, and the map of magnet.file has the field of one plane: "
-            "choose magnet.shape lines or parts");
+        return fst_fail(error, FST_BAD_INPUT, "magnet.shape",
+                        "several beads, or one in a world, need the field in space, and the map of magnet.file "
+                        "has that of one plane: "
+                        "choose magnet.shape lines or parts");
     if (p->bead_material != FST_MATERIAL_HARD)
         return fst_fail(error, FST_BAD_INPUT, "bead.material",
                         "bead %d: several beads are hard magnets so far: bead.material must be hard", bead + 1);

@@ -32,6 +32,9 @@ static const option options[] = {
     {NULL, '\0', NULL, NULL},
 };
 
+/* What a place and a field mean where more than a turning magnet makes it. */
+#define ALL_FIELDS "at the time 0 of all that makes a field, laboratory's axes"
+
 /* What is smaller than the rounding errors of the sum over the lines is shown as the zero that it is. */
 static double above_rounding(double value, double greatest)
 {
@@ -69,7 +72,7 @@ static void print_errors(FILE *out, const fst_model *model, const double at[2], 
 }
 
 static void print_text(FILE *out, const fst_model *model, const double at[2], const char *height,
-                       fst_shown_units units)
+                       const char *frame, fst_shown_units units)
 {
     double b[3], grad[3][3];
     static const char *const axes[] = {"X", "Y", "Z"};
@@ -86,8 +89,8 @@ static void print_text(FILE *out, const fst_model *model, const double at[2], co
         for (int k = 0; k < 3; ++k)
             steepest = fmax(steepest, fabs(grad[i][k]));
     }
-    (void)fprintf(out, "at X = %g, Y = %g l (%g mm, %g mm), magnet's frame, at the height ", at[0], at[1],
-                  mm * at[0], mm * at[1]);
+    (void)fprintf(out, "at X = %g, Y = %g l (%g mm, %g mm), %s, at the height ", at[0], at[1], mm * at[0],
+                  mm * at[1], frame);
     if (height)
         (void)fprintf(out, "of %g mm over the magnet's %s\n", mm * groups.h,
                       groups.shape == FST_MAGNET_LINES ? "mid-plane" : "reference plane");
@@ -184,12 +187,16 @@ static fst_status check_outside(const fst_params *params, const double at[2], do
 
 /* The field of everything that makes one, at a time. */
 static fst_status print_at_time(const arguments *given, const fst_params *params, const double place[3],
-                                FILE *out, fst_error *error)
+                                fst_shown_units units, FILE *out, fst_error *error)
 {
     static const char *const axes[] = {"x", "y", "z"};
+    const fst_scales scales = fst_scales_of(params);
+    const char *tesla, *metre;
+    const double length = fst_unit_shown("l", units, &scales, &metre);
+    const double field = fst_unit_shown("B0", units, &scales, &tesla), slope = field / length;
     double seconds = 0.0, b[3], grad[3][3];
     const char *text = option_value(given, "time");
-    fst_status status = text ? fst_parse_value(text, FST_UNIT_TIME, &seconds, error) : FST_OK;
+    fst_status status = fst_parse_value(text, FST_UNIT_TIME, &seconds, error);
     if (status != FST_OK || !(fabs(seconds) < 1e9))
         return fail(error, FST_BAD_INPUT, "--time", "\"%.40s\" must be a time, as in 0.2 or 20ms", text);
     const double time = seconds * params->friction_gamma;
@@ -198,17 +205,19 @@ static fst_status print_at_time(const arguments *given, const fst_params *params
         return status;
     if (option_value(given, "json"))
         return print_and_free(fst_field_at_json(params, time, place, b, grad), out, error);
-    (void)fprintf(out, "after %g s, on the laboratory's axes, at %.9g %.9g %.9g l; fields in B0:\n", seconds,
-                  place[0], place[1], place[2]);
+    (void)fprintf(
+        out, "after %g s, on the laboratory's axes, at %.9g %.9g %.9g %s; fields in %s, gradients in %s/%s:\n",
+        seconds, length * place[0], length * place[1], length * place[2], metre, tesla, tesla, metre);
     for (int i = 0; i < 3; ++i)
-        (void)fprintf(out, "B%s = %.9g, its gradient %.9g %.9g %.9g\n", axes[i], b[i], grad[i][0], grad[i][1],
-                      grad[i][2]);
+        (void)fprintf(out, "B%s = %.9g, its gradient %.9g %.9g %.9g\n", axes[i], field * b[i],
+                      slope * grad[i][0], slope * grad[i][1], slope * grad[i][2]);
     return FST_OK;
 }
 
 static fst_status print_point(const arguments *given, const fst_params *params, double h, fst_shown_units units,
                               FILE *out, fst_error *error)
 {
+    const int surrounded = fst_key_of_surroundings(params) != NULL;
     double at[2] = {0.0, 0.0};
     fst_model *model = NULL;
     const char *height = option_value(given, "height");
@@ -217,10 +226,10 @@ static fst_status print_point(const arguments *given, const fst_params *params, 
         status = read_place(option_value(given, "at"), fst_model_groups(model).length_unit, at, error);
     if (status == FST_OK && !(fabs(at[0]) < farthest && fabs(at[1]) < farthest))
         status = fail(error, FST_BAD_INPUT, "", "--at %g,%g is out of range: up to %g", at[0], at[1], farthest);
-    if (status == FST_OK && (option_value(given, "time") || fst_key_of_world(params))) {
+    if (status == FST_OK && option_value(given, "time")) {
         const double place[3] = {at[0], at[1], fst_model_groups(model).h};
         fst_model_free(model);
-        return print_at_time(given, params, place, out, error);
+        return print_at_time(given, params, place, units, out, error);
     }
     if (status == FST_OK)
         status = check_outside(params, at, fst_model_groups(model).h, error);
@@ -228,9 +237,10 @@ static fst_status print_point(const arguments *given, const fst_params *params, 
         status = fail(error, FST_BAD_INPUT, "--at",
                       "%g,%g lies beyond the map of magnet.file, where the field is not known", at[0], at[1]);
     if (status == FST_OK && option_value(given, "json"))
-        status = print_and_free(fst_field_json(model, at[0], at[1], units), out, error);
+        status =
+            print_and_free(fst_field_json(model, at[0], at[1], surrounded ? FST_SHOWN_SI : units), out, error);
     else if (status == FST_OK)
-        print_text(out, model, at, height, units);
+        print_text(out, model, at, height, surrounded ? ALL_FIELDS : "magnet's frame", units);
     fst_model_free(model);
     return status;
 }
@@ -436,8 +446,11 @@ const command field_command = {
     .name = "field",
     .synopsis = "[SCENE.yaml] --at X,Y | -o FIG | --csv FILE [options]",
     .summary = "The magnet's field and its gradient at a point, or drawn as a map",
-    .details = "Places without a unit are in l (half the length of the magnet's lines), in the magnet's frame; "
-               "fields are in B0,\n"
+    .details = "Places without a unit are in l (half the length of the magnet's lines), in the magnet's frame. "
+               " Parts that "
+               "stand still,\n"
+               "coils, field.uniform and a wave count as they are at the time 0, on the same axes.  Fields are "
+               "in B0,\n"
                "with --units lab or si in mT or tesla, where magnet.b0 or bead.moment gives B0 (real magnets "
                "always do); --json\n"
                "then has both.  Force and load are those of a bead at rest, its moment along B.\n",

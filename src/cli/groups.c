@@ -4,7 +4,7 @@
 void print_groups(FILE *out, const fst_groups *groups)
 {
     (void)fprintf(out, "  eps = %.6g  h = %.6g  ", groups->eps, groups->h);
-    if (groups->shape != FST_MAGNET_PARTS) /* which have no lines */
+    if (groups->shape == FST_MAGNET_LINES)
         (void)fprintf(out, "lambda = %.6g (%d line%s)  ", groups->lambda, groups->lines,
                       groups->lines == 1 ? "" : "s");
     (void)fprintf(out, "kappa = %.6g  omega = %.6g\n", groups->kappa, groups->omega);

@@ -115,8 +115,8 @@ static void range_of(const fst_chart_curve *curves, int count, int abscissa, int
     *high = isfinite(*high) ? *high : greatest;
 }
 
-/* The range of the left ordinate: the panel's, or one about values that are equal or tiny and nearly equal,
- * whose tics gnuplot would number with more digits than there is room for; 0: gnuplot finds one beyond this. */
+/* The range of the left ordinate: the panel's, or one about values that are equal but for rounding, or tiny and nearly
+ * equal, whose tics gnuplot would number with more digits than there is room for; 0: gnuplot finds one beyond this. */
 static int range_of_values(const fst_chart_panel *panel, double *low, double *high)
 {
     *low = panel->low;
@@ -126,7 +126,7 @@ static int range_of_values(const fst_chart_panel *panel, double *low, double *hi
     *low = *high = NAN;
     range_of(panel->curves, panel->curve_count, 0, 0, low, high);
     const double greatest = fmax(fabs(*low), fabs(*high)), span = *high - *low;
-    if (!isfinite(greatest) || (span > 0.0 && (greatest > 1e-3 || span > 0.5 * greatest)))
+    if (!isfinite(greatest) || (span > 1e-5 * greatest && (greatest > 1e-3 || span > 0.5 * greatest)))
         return 0;
     const double more = greatest > 0.0 ? 0.2 * greatest : 1.0;
     *low = *low > 0.0 && greatest < 1e-3 ? 0.0 : *low - more;

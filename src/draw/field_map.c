@@ -101,6 +101,12 @@ static void arrow_at(const survey *s, double x, double y, double arrow[2])
     arrow[1] = nothing ? 0.0 : v[1];
 }
 
+/* Whether the quantity is the same everywhere, as that of a uniform field or of none; nothing can be drawn on it. */
+static int is_even(const survey *s)
+{
+    return !(s->greatest - s->least > 1e-9 * fmax(fabs(s->least), fabs(s->greatest)));
+}
+
 /* ------------------------------------------------------------------ values and maxima */
 
 static int put_values(fst_field_picture *picture, survey *s)
@@ -169,7 +175,7 @@ static void find_maxima(fst_field_picture *picture, const survey *s)
 static void put_maxima(fst_field_picture *picture, const survey *s)
 {
     double(*m)[2] = picture->maxima;
-    if (s->quantity == FST_FIELD_STRENGTH)
+    if (s->quantity == FST_FIELD_STRENGTH && !is_even(s))
         find_maxima(picture, s);
     for (int i = 0; i < picture->maximum_count; ++i)
         for (int k = 0; k < 2; ++k)
@@ -199,6 +205,8 @@ static void put_labels(fst_field_picture *picture, const survey *s)
     const double from = s->quantity == FST_FIELD_STRENGTH ? 0.0 : s->least;
     const double step = fst_round_step((s->greatest - from) / LEVELS);
     double before = value_at(s, x, 0.0), labelled = -INFINITY;
+    if (is_even(s))
+        return;
     put_levels(picture, s, step, from);
     for (int i = 1; i <= STEPS && picture->label_count < FST_PICTURE_LEVELS; ++i) {
         const double y = 0.95 * s->half_height * i / STEPS;
@@ -266,7 +274,7 @@ static int put_arrows(fst_field_picture *picture, survey *s)
         to[1] = s->length * parts[i][1] - 0.5 * dy;
         to[2] = dx;
         to[3] = dy;
-        picture->arrow_count += !meets_words(picture, to);
+        picture->arrow_count += plane > 0.0 && !meets_words(picture, to);
     }
     picture->arrows = &parts[0][0];
     picture->longest = longest / (2.0 * s->half_width);
@@ -289,15 +297,21 @@ static void put_words(fst_field_picture *picture, const survey *s, int other_hei
 {
     const int bar = s->params->magnet_shape == FST_MAGNET_LINES;
     const double longest = s->value * s->strongest;
+    const int all = fst_key_of_surroundings(s->params) != NULL;
+    const char *title = !all                                ? words[s->quantity].title
+                        : s->quantity == FST_FIELD_STRENGTH ? "The field"
+                        : s->quantity == FST_FIELD_FORCE    ? "The horizontal pull on a bead"
+                                                            : words[s->quantity].title;
     if (other_height)
-        (void)snprintf(picture->title, sizeof picture->title, "%s at the height %.4g mm",
-                       words[s->quantity].title, 1e3 * s->groups.h * s->groups.length_unit);
+        (void)snprintf(picture->title, sizeof picture->title, "%s at the height %.4g mm", title,
+                       1e3 * s->groups.h * s->groups.length_unit);
     else
-        (void)snprintf(picture->title, sizeof picture->title, "%s%s", words[s->quantity].title,
+        (void)snprintf(picture->title, sizeof picture->title, "%s%s", title,
                        is_of_bead(s) ? "" : " at the height of the bead's centre");
-    (void)snprintf(picture->about, sizeof picture->about, "%s: ℓ = %.4g mm%s",
+    (void)snprintf(picture->about, sizeof picture->about, "%s: ℓ = %.4g mm%s%s",
                    bar ? "half length of the magnet's lines" : "unit of length", 1e3 * s->groups.length_unit,
-                   is_of_bead(s) ? "; the bead's moment along the field" : "");
+                   is_of_bead(s) ? "; the bead's moment along the field" : "",
+                   all ? "; all that makes a field, at the time 0 on the laboratory's axes" : "");
     fst_caption(s->params, NULL, 0, picture->about, sizeof picture->about);
     (void)snprintf(picture->x_label, sizeof picture->x_label, "X (%s)%s", s->length_unit,
                    bar ? ", along the magnet's lines" : "");
@@ -315,10 +329,11 @@ static void put_words(fst_field_picture *picture, const survey *s, int other_hei
 /* A component has both signs, and grey is its zero; the load may be of any sign. */
 static void put_colours(fst_field_picture *picture, const survey *s)
 {
-    const int component = s->quantity >= FST_FIELD_X && s->quantity <= FST_FIELD_Z;
-    const double most = fmax(fabs(s->least), fabs(s->greatest));
+    const int component = s->quantity >= FST_FIELD_X && s->quantity <= FST_FIELD_Z, even = is_even(s);
+    const double strongest = fmax(fabs(s->least), fabs(s->greatest)), most = strongest > 0.0 ? strongest : 1.0;
     picture->colours = component ? (fst_colour_range){FST_PALETTE_DIVERGING, -most, most}
-                                 : (fst_colour_range){FST_PALETTE_MAP, s->least, s->greatest};
+                                 : (fst_colour_range){FST_PALETTE_MAP, even ? fmin(s->least, 0.0) : s->least,
+                                                      even ? most : s->greatest};
 }
 
 /* The map shows the poles and the corners of the magnet, with room about them that grows with the height. */

@@ -39,7 +39,8 @@ static void write_map(fst_figure_file *figure, const fst_field_picture *f)
 static void write_data(fst_figure_file *figure, const fst_field_picture *f)
 {
     write_map(figure, f);
-    fst_figure_block(figure, "arrows", "X Y dX dY: the part in the plane");
+    if (f->arrow_count)
+        fst_figure_block(figure, "arrows", "X Y dX dY: the part in the plane");
     for (const double *at = f->arrows; at < f->arrows + 4 * f->arrow_count; at += 4)
         (void)fprintf(figure->data, "%.5g %.5g %.4g %.4g\n", at[0], at[1], at[2], at[3]);
     fst_figure_block(figure, "labels", "X Y: values of the lines");
@@ -86,32 +87,34 @@ static void write_script(fst_figure_file *figure, const fst_field_picture *f, co
 {
     FILE *script = figure->script;
     fst_figure_panels(figure);
-    (void)fputs("set cntrparam levels discrete ", script);
     for (int i = 0; i < f->level_count; ++i)
-        (void)fprintf(script, "%s%.9g", i ? "," : "", f->levels[i]);
-    (void)fputs("\nset contour base\nunset surface\nset table $contours\n"
-                "splot data index 'map' using 1:2:3\n"
-                "unset table\nunset contour\nset surface\n",
-                script);
+        (void)fprintf(script, "%s%.9g", i ? "," : "set cntrparam levels discrete ", f->levels[i]);
+    if (f->level_count)
+        (void)fputs("\nset contour base\nunset surface\nset table $contours\n"
+                    "splot data index 'map' using 1:2:3\n"
+                    "unset table\nunset contour\nset surface\n",
+                    script);
     write_axes(figure, f, l);
     write_distance(figure, f);
-    (void)fputs("plot data index 'map' using 1:2:3 with image notitle, \\\n"
-                "     $contours using 1:2 with lines lc rgb '#4f759b' lw 0.8 notitle, \\\n",
-                script);
+    (void)fputs("plot data index 'map' using 1:2:3 with image notitle, \\\n", script);
+    if (f->level_count)
+        (void)fputs("     $contours using 1:2 with lines lc rgb '#4f759b' lw 0.8 notitle, \\\n", script);
     fst_figure_plot_lines(script, f->lines, f->line_count);
     if (f->label_count)
         (void)fputs("     data index 'labels' using 1:2:3 with points pt 7 ps 1.9 lc palette notitle, \\\n"
                     "     data index 'labels' using 1:2:(sprintf('%.4g', $3)) with labels font ',11' "
                     "textcolor rgb '#0b2a4a' notitle, \\\n",
                     script);
-    (void)fputs("     data index 'arrows' using 1:2:3:4 with vectors head filled size screen 0.011,20 lc rgb "
-                "'#333333' lw 1 notitle",
-                script);
+    if (f->arrow_count)
+        (void)fputs(
+            "     data index 'arrows' using 1:2:3:4 with vectors head filled size screen 0.011,20 lc rgb "
+            "'#333333' lw 1 notitle, \\\n",
+            script);
     if (f->maximum_count)
         (void)fputs(
-            ", \\\n     data index 'maxima' using 1:2 with points pt 2 ps 1.2 lw 3 lc rgb '#000000' notitle",
+            "     data index 'maxima' using 1:2 with points pt 2 ps 1.2 lw 3 lc rgb '#000000' notitle, \\\n",
             script);
-    (void)fputc('\n', script);
+    (void)fputs("     NaN notitle\n", script);
 }
 
 static fst_legend make_legend(const fst_field_picture *f, const char *title)
@@ -120,10 +123,13 @@ static fst_legend make_legend(const fst_field_picture *f, const char *title)
     (void)snprintf(legend.title, sizeof legend.title, "%s", title ? title : f->title);
     (void)snprintf(legend.about, sizeof legend.about, "%s%s%s", title ? f->title : "", title ? "; " : "",
                    f->about);
-    fst_legend_add(&legend, FST_SAMPLE_LINE, "lc rgb '#4f759b' lw 0.8", f->level_words);
+    if (f->level_count)
+        fst_legend_add(&legend, FST_SAMPLE_LINE, "lc rgb '#4f759b' lw 0.8", f->level_words);
     if (f->maximum_count > 0)
         fst_legend_add(&legend, FST_SAMPLE_POINT, "pt 2 ps 1.2 lw 3 lc rgb '#000000'", "maxima of |B|");
     fst_legend_add_lines(&legend, f->lines, f->line_count);
+    if (f->arrow_count == 0)
+        return legend;
     fst_legend_add(&legend, FST_SAMPLE_ARROW, "lc rgb '#333333' lw 1", f->arrow_words);
     legend.entries[legend.count - 1].length = f->longest * (FST_FIGURE_WIDTH - LEFT - RIGHT);
     return legend;

@@ -26,6 +26,7 @@ typedef struct source {
     fst_params *scene; /* NULL: the file does not say */
     const char *shown[FST_AXIS_LIMIT];
     int shown_count; /* keys that the figure shows anyway */
+    char at[192];    /* of a sweep, the values of its other axes */
     fst_carry carry; /* of a sweep */
 } source;
 
@@ -72,9 +73,8 @@ static fst_sweep_figure figure_of(const fst_grid *grid, wanted *w)
     memset(figure.at, 0, sizeof figure.at);
     for (int i = 0; i < FST_AXIS_LIMIT && w->sweeps.at[i]; ++i)
         for (int axis = 0; axis < fst_grid_axis_count(grid); ++axis) {
-            const char *key = fst_grid_key(grid, axis), *at = w->sweeps.at[i];
-            if (strncmp(at, key, strlen(key)) == 0 && at[strlen(key)] == '=') {
-                figure.at[count++] = at;
+            if (fst_sweep_is_at(w->sweeps.at[i], fst_grid_key(grid, axis))) {
+                figure.at[count++] = w->sweeps.at[i];
                 w->used[i] = 1;
             }
         }
@@ -90,16 +90,19 @@ static fst_status take_sweep(source *s, wanted *w, fst_error *error)
     const fst_grid *grid = table.grid;
     s->carry = table.carry;
     const fst_sweep_figure figure = figure_of(grid, w);
-    for (int i = 0; i < fst_grid_axis_count(grid); ++i)
-        if (fst_grid_axis_points(grid, i) > 1)
-            note_key(s, fst_grid_key(grid, i));
+    fst_sweep_slice slice;
+    status = fst_chart_of_sweep(s->path, &figure, &s->chart, &slice, error);
     s->scene = malloc(sizeof *s->scene);
-    if (!s->scene)
+    if (status == FST_OK && s->scene) {
+        if (fst_grid_params(grid, slice.start, s->scene, NULL) != FST_OK)
+            *s->scene = *fst_grid_base(grid);
+        note_key(s, fst_grid_key(grid, slice.axes[0].index));
+        (void)snprintf(s->at, sizeof s->at, "%s", slice.words);
+    } else if (status == FST_OK) {
         status = no_memory(error);
-    else if (fst_grid_params(grid, 0, s->scene, NULL) != FST_OK)
-        *s->scene = *fst_grid_base(grid);
+    }
     fst_sweep_table_free(&table);
-    return status == FST_OK ? fst_chart_of_sweep(s->path, &figure, 1, &s->chart, error) : status;
+    return status;
 }
 
 static fst_status take_trajectory(source *s, const wanted *w, fst_error *error)
@@ -150,7 +153,10 @@ static void name_files(const source *sources, int count, char (*names)[FST_CAPTI
     }
     fst_caption_of_files(scenes, paths, count, shown, shown_count, names, same, size);
     for (int i = 0; i < count; ++i) { /* runs that were begun where their neighbours ended */
-        const size_t used = strlen(names[i]);
+        const size_t used = strlen(names[i]), told = strlen(same);
+        if (sources[i].at[0] && !strstr(names[i], sources[i].at) && !strstr(same, sources[i].at))
+            (void)snprintf(same + told, size - told, "%sat %s", told ? "; " : "",
+                           sources[i].at); /* as by default */
         if (sources[i].carry != FST_CARRY_NO)
             (void)snprintf(names[i] + used, FST_CAPTION_SIZE - used, ", %s",
                            sources[i].carry == FST_CARRY_UP ? "upwards" : "downwards");

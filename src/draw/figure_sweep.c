@@ -1,6 +1,7 @@
 /* figure_sweep.c - fst_figure_sweep(): which part of a sweep is shown, which keys, and as curves or as a map. */
 #include "draw/figure_sweep.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,6 +30,13 @@ static const fst_param_info *row_of(const fst_grid *grid, int axis)
     return fst_param_at(fst_param_find(fst_grid_key(grid, axis)));
 }
 
+/* Without the last digits, which rounding leaves between the ends of an axis: 0.39999999999999997 is meant as 0.4. */
+static double as_meant(double value)
+{
+    const double digits = 12.0 - ceil(log10(fabs(value))), power = pow(10.0, digits);
+    return digits >= 0.0 && digits <= 22.0 ? round(value * power) / power : value;
+}
+
 /* A value of an axis as people write it. */
 static void write_value(const fst_param_info *row, double value, char *text, size_t size)
 {
@@ -37,7 +45,7 @@ static void write_value(const fst_param_info *row, double value, char *text, siz
     if (name)
         (void)snprintf(text, size, "%.*s", (int)length, name);
     else
-        (void)fst_value_write(text, size, value, row->unit);
+        (void)fst_value_write(text, size, as_meant(value), row->unit);
 }
 
 /* The number that a text says for a key: of a choice, the place of its name. */
@@ -59,6 +67,16 @@ static fst_status read_value(const fst_grid *grid, int axis, const char *text, d
     return FST_OK;
 }
 
+int fst_sweep_is_at(const char *text, const char *key)
+{
+    char name[64] = "";
+    const char *equals = strchr(text, '=');
+    if (equals && equals - text < (ptrdiff_t)sizeof name)
+        (void)snprintf(name, sizeof name, "%.*s", (int)(equals - text), text);
+    const int row = fst_param_find(name);
+    return row >= 0 && row == fst_param_find(key);
+}
+
 /* The axis that a text "KEY=VALUE" names, and its value. */
 static fst_status read_at(const fst_grid *grid, const char *text, int *axis, double *value, fst_error *error)
 {
@@ -70,7 +88,7 @@ static fst_status read_at(const fst_grid *grid, const char *text, int *axis, dou
     for (int i = 0; i < fst_grid_axis_count(grid); ++i) {
         const size_t used = strlen(names);
         (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "", fst_grid_key(grid, i));
-        if (strcmp(key, fst_grid_key(grid, i)) == 0)
+        if (fst_sweep_is_at(text, fst_grid_key(grid, i)))
             *axis = i;
     }
     if (!equals || *axis < 0)
@@ -288,21 +306,20 @@ static fst_status family_of(const shown_sweep *s, fst_chart **chart, fst_error *
     return status;
 }
 
-fst_status fst_chart_of_sweep(const char *path, const fst_sweep_figure *options, int plain, fst_chart **chart,
-                              fst_error *error)
+fst_status fst_chart_of_sweep(const char *path, const fst_sweep_figure *options, fst_chart **chart,
+                              fst_sweep_slice *slice, fst_error *error)
 {
     shown_sweep s;
     *chart = NULL;
     fst_status status = read_sweep(path, options, &s, error);
-    if (status == FST_OK && (s.is_map || (plain && s.slice.varied > 1)))
+    if (status == FST_OK && (s.is_map || s.slice.varied > 1))
         status =
             fst_fail(error, FST_BAD_INPUT, path,
                      "a sweep over two axes makes no curve: fst_sweep_figure.at takes those points where one "
                      "axis has a value");
     if (status == FST_OK)
-        status = s.slice.varied > 1
-                     ? family_of(&s, chart, error)
-                     : fst_sweep_curves(&s.table, s.quantities, s.count, &s.slice, plain, chart, error);
+        status = fst_sweep_curves(&s.table, s.quantities, s.count, &s.slice, 1, chart, error);
+    *slice = s.slice;
     fst_sweep_table_free(&s.table);
     return status;
 }

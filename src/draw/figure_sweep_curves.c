@@ -226,24 +226,40 @@ static double scale_of_drive(const fst_grid *grid, const fst_sweep_axis *axis, i
     return in_hertz ? factor : 0.0;
 }
 
-/* Choose which points of a slice are drawn: at most MOST_POINTS, because a figure shows no more; of a refined sweep only
- * those that were computed.  Returns n where each n-th point is drawn; 0: no memory. */
+/* A point and where it stands on the axis. */
+typedef struct stand {
+    double x;
+    int64_t point;
+} stand;
+
+static int by_place(const void *a, const void *b)
+{
+    const stand *one = a, *other = b;
+    return one->x != other->x ? (one->x > other->x) - (one->x < other->x)
+                              : (one->point > other->point) - (one->point < other->point);
+}
+
+/* Choose which points of a slice are drawn, along the axis, for those of a random one or of a list have any order: at most
+ * MOST_POINTS, because a figure shows no more; of a refined sweep only those that were computed.  Returns n where each n-th
+ * point is drawn; 0: no memory. */
 static size_t choose_points(drawing *d, const fst_sweep_slice *slice)
 {
     const fst_grid *grid = d->table->grid;
     const int64_t stride = fst_grid_axis_stride(grid, slice->axes[0].index), count = slice->axes[0].count;
     size_t seen = 0;
+    stand *stands = fst_chart_keep(d->chart, (size_t)(count + 1) * sizeof *stands);
     d->chosen = fst_chart_keep(d->chart, (size_t)(count + 1) * sizeof *d->chosen);
-    if (!d->chosen)
+    if (!d->chosen || !stands)
         return 0;
     for (int64_t i = 0; i < count; ++i) {
         const int64_t point = slice->start + i * stride;
         if (!d->table->refine || d->table->computed[point])
-            d->chosen[seen++] = point;
+            stands[seen++] = (stand){fst_sweep_axis_value(grid, &slice->axes[0], point), point};
     }
+    qsort(stands, seen, sizeof *stands, by_place);
     const size_t step = seen > MOST_POINTS ? (seen + MOST_POINTS - 1) / MOST_POINTS : 1;
     for (size_t i = 0; i < seen; i += step)
-        d->chosen[d->points++] = d->chosen[i];
+        d->chosen[d->points++] = stands[i].point;
     return step;
 }
 

@@ -190,8 +190,12 @@ static int put_measured_poles(const fst_params *params, double length, double an
                               fst_picture_line *lines, int *count, void **memory)
 {
     fst_model *model = NULL;
+    fst_params magnet = *params; /* alone */
     double(*values)[GRID + 1] = fst_keep(memory, sizeof(double[GRID + 1][GRID + 1])), most[2];
-    if (!values || fst_field_model_new(params, NAN, &model, NULL) != FST_OK)
+    magnet.coil_count = 0;
+    for (int i = 0; i < 3; ++i)
+        magnet.field_uniform[i] = 0.0;
+    if (!values || fst_field_model_new(&magnet, NAN, &model, NULL) != FST_OK)
         return values != NULL;
     const double radius = fst_model_groups(model).map_radius;
     int good = 1;

@@ -42,7 +42,9 @@ static void write_head(FILE *out, const fst_model *model)
 {
     const fst_field_map *map = fst_model_map(model);
     const fst_map_fit fit = map ? fst_field_map_describe(map).fit : (fst_map_fit){.charges = 0};
-    (void)fprintf(out, "# The field of a magnet in its own frame, z over its reference plane\n");
+    (void)fprintf(
+        out,
+        "# The field at the time 0 of all that makes one, on the magnet's axes, z over its reference plane\n");
     if (fit.charges)
         (void)fprintf(
             out,

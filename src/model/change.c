@@ -64,8 +64,23 @@ static int field_unit_is_free(const fst_params *p)
     return fst_magnet_in_tesla(p) && fst_kappa_follows(p) && p->bead_material == FST_MATERIAL_HARD;
 }
 
+/* A coil without a current makes no field, wherever it is. */
+static fst_params without_idle_coils(const fst_params *p)
+{
+    fst_params left = *p;
+    left.coil_count = 0;
+    memset(left.coils, 0, sizeof left.coils);
+    for (int i = 0; i < p->coil_count; ++i)
+        if (p->coils[i].current != 0 || p->coils[i].ac != 0)
+            left.coils[left.coil_count++] = p->coils[i];
+    return left;
+}
+
 fst_scene_change fst_params_changes(const fst_params *one, const fst_params *other)
 {
+    const fst_params a = without_idle_coils(one), b = without_idle_coils(other);
+    if (memcmp(&a, &b, sizeof a) == 0)
+        return FST_CHANGE_NOTHING;
     fst_params alike = *other;
     fst_model *models[2] = {NULL, NULL};
     fst_scene_change change = FST_CHANGE_MOTION;

@@ -21,13 +21,18 @@ static void set_strength(const fst_params *p, fst_groups *g)
     g->b = p->bead_material == FST_MATERIAL_MIXED ? p->bead_b : 0.0;
 }
 
+double fst_bead_height(const fst_params *p)
+{
+    return isnan(p->model_h) ? (p->magnet_depth + p->bead_radius) / p->magnet_half_length : p->model_h;
+}
+
 static void set_geometry(const fst_params *p, fst_groups *g)
 {
     const double l = p->magnet_half_length;
     g->length_unit = l;
     g->eps = isnan(p->model_eps) ? p->bead_radius / l : p->model_eps;
     g->inertia = p->bead_inertia;
-    g->h = isnan(p->model_h) ? (p->magnet_depth + p->bead_radius) / l : p->model_h;
+    g->h = fst_bead_height(p);
     g->lines = p->magnet_lines;
     g->lambda = isnan(p->model_lambda) ? p->magnet_width / ((p->magnet_lines - 1) * l) : p->model_lambda;
     if (p->magnet_lines == 1)
@@ -148,6 +153,7 @@ static fst_status make_model(const fst_params *params, double height, fst_model 
     made->world = fst_make_world_double(&turning, &g);
     made->params = *params;
     made->has_s2 = field_has_s2(params, &made->world, &g);
+    made->surroundings = NULL;
     made->map = g.shape == FST_MAGNET_GRID ? fst_field_map_share(params->magnet_map) : NULL;
     return FST_OK;
 }
@@ -159,77 +165,9 @@ fst_status fst_model_fill(const fst_params *params, double height, fst_model *mo
     return status == FST_OK ? make_model(&settled, height, model, error) : status;
 }
 
-fst_status fst_model_new(const fst_params *params, fst_model **model, fst_error *error)
-{
-    *model = NULL;
-    const fst_status status = fst_check_no_world(params, error);
-    return status == FST_OK ? fst_field_model_new(params, NAN, model, error) : status;
-}
-
-fst_status fst_field_model_new(const fst_params *params, double height, fst_model **model, fst_error *error)
-{
-    *model = NULL;
-    fst_model *made = malloc(sizeof *made);
-    const fst_status status = made ? fst_model_fill(params, height, made, error)
-                                   : fst_fail(error, FST_NO_MEMORY, "fst_model_new", "out of memory");
-    if (status == FST_OK)
-        *model = made;
-    else
-        free(made);
-    return status;
-}
-
-void fst_model_free(fst_model *model)
-{
-    if (model)
-        fst_field_map_free(model->map);
-    free(model);
-}
-
 fst_groups fst_model_groups(const fst_model *model)
 {
     return model->groups;
-}
-
-/* Whether the samples of a measured field surround a place. */
-static int is_known(const fst_model *model, double x, double y)
-{
-    const fst_map_plane *plane = model->world.kinds.plane;
-    const double place[2] = {x * model->groups.length_unit, y * model->groups.length_unit};
-    for (int axis = 0; plane && axis < 2; ++axis) {
-        const double cells = (place[axis] - plane->first[axis]) / plane->spacing[axis];
-        if (!(cells >= -1e-9 && cells <= plane->cells[axis] + 1e-9))
-            return 0;
-    }
-    return 1;
-}
-
-void fst_field(const fst_model *model, double x, double y, double b[3], double grad[3][3])
-{
-    if (!is_known(model, x, y)) {
-        for (int i = 0; i < 3; ++i)
-            b[i] = grad[i][0] = grad[i][1] = grad[i][2] = NAN;
-        return;
-    }
-    fst_gradient_double g;
-    fst_field_double(&model->world, x, y, model->world.height, b, &g);
-    const double all[3][3] = {{g.xx, g.xy, g.xz}, {g.yx, g.yy, g.yz}, {g.xz, g.yz, -(g.xx + g.yy)}};
-    memcpy(grad, all, sizeof all);
-}
-
-void fst_field_pull(const fst_model *model, double x, double y, double force[3], double *load)
-{
-    const fst_groups *g = &model->groups;
-    double b[3], grad[3][3];
-    fst_field(model, x, y, b, grad);
-    const double norm = sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
-    /* U = -kappa eps^2 B - (a + b) B^2 with n along B, and dB/dx_j = B_i G_ij/B. */
-    const double pull = g->kappa * (g->eps * g->eps) + 2.0 * (g->a + g->b) * norm;
-    for (int j = 0; j < 3; ++j) {
-        const double slope = b[0] * grad[0][j] + b[1] * grad[1][j] + b[2] * grad[2][j];
-        force[j] = norm > 0.0 ? pull * slope / norm : 0.0;
-    }
-    *load = g->gravity - force[2];
 }
 
 void fst_slip(const fst_model *model, const double state[FST_STATE_SIZE], double slip[2])

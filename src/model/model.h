@@ -13,9 +13,14 @@ struct fst_model {
     fst_world_double world;
     fst_field_map *map; /* of a measured field, which the world points into; else NULL */
     int has_s2;         /* whether the magnet's field has the symmetry S2: B(-X, -Y) = (B_X, B_Y, -B_Z)(X, Y) */
+    struct fst_surroundings
+        *surroundings; /* for fst_field(), where more than a turning magnet makes it; else NULL */
 };
 
-/* fst_field_model_new() into memory of the caller, who frees `map`. */
+/* The height of a bead's centre on the plate over the magnet's reference plane, in l. */
+double fst_bead_height(const fst_params *p);
+
+/* fst_field_model_new() into memory of the caller, who frees `map`; without surroundings. */
 fst_status fst_model_fill(const fst_params *params, double height, fst_model *model, fst_error *error);
 
 /* The angle between n and B from gap2 = |n - B/|B||^2, rad. */

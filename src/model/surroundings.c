@@ -11,8 +11,6 @@
  */
 #include "model/surroundings.h"
 
-#include <festoon/beads.h>
-
 #include <math.h>
 #include <string.h>
 
@@ -107,7 +105,7 @@ fst_status fst_make_surroundings(const fst_model *model, fst_surroundings *s, fs
         s->wave_number = FST_TWO_PI * g->length_unit / p->wave_length;
         s->forward = p->wave_amplitude / g->field_unit; /* p: of the array under the plate */
         s->backward = p->wave_ratio * s->forward;
-        s->wave_height = g->h;
+        s->wave_height = fst_bead_height(p); /* also of a model that is asked at another height */
     }
     return FST_OK;
 }
@@ -255,26 +253,4 @@ double fst_frame_angle(const fst_surroundings *s, double t)
 double fst_frame_rate(const fst_surroundings *s, double t)
 {
     return s->laboratory ? 0.0 : fst_waveform_rate(&s->drive, t);
-}
-
-fst_status fst_field_at(const fst_params *params, double time, const double place[3], double b[3],
-                        double grad[3][3], fst_error *error)
-{
-    fst_model *model;
-    fst_surroundings s;
-    fst_gradient_double g;
-    double change[3];
-    fst_status status = fst_field_model_new(params, NAN, &model, error);
-    if (status != FST_OK)
-        return status;
-    status = fst_make_surroundings(model, &s, error);
-    if (status == FST_OK) {
-        s.laboratory = 1;
-        (void)fst_waveform_enter(&s.drive, time);
-        fst_surroundings_field(&s, time, place, b, &g, change);
-        const double all[3][3] = {{g.xx, g.xy, g.xz}, {g.yx, g.yy, g.yz}, {g.xz, g.yz, -(g.xx + g.yy)}};
-        memcpy(grad, all, sizeof all);
-    }
-    fst_model_free(model);
-    return status;
 }

@@ -69,7 +69,8 @@ static fst_scene_change change_along(const fst_grid *grid, int axis)
 int fst_grid_idle_axes(const fst_grid *grid, char *sentence, size_t size)
 {
     static const char *const formats[FST_CHANGE_MOTION] = {
-        "along %.160s nothing changes: its values are the same, or other keys leave it without effect",
+        "along %.160s the motion does not change: its values are the same, or other keys leave it without "
+        "effect",
         "along %.160s only units change: the motion depends on scaled numbers, which other keys fix"};
     char keys[FST_CHANGE_MOTION + 1][160] = {"", "", ""};
     char told[2][280] = {"", ""};

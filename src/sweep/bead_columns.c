@@ -57,7 +57,7 @@ static const fst_bead_column columns[] = {
     WORLD("mean_r", REAL, NULL, "l", result.mean_r)
     WORLD("mean_height", REAL, NULL, "l", world.mean_height)
     WORLD("mean_alpha_dot", REAL, NULL, "gamma", result.mean_alpha_dot)
-    WORLD("mean_load_weights", REAL, NULL, "1", result.mean_load_weights)
+    WORLD("mean_load_weights", REAL, NULL, "m g", result.mean_load_weights)
     WORLD("mean_drive_power", REAL, NULL, "l^2 gamma^3", result.mean_drive_power)
     WORLD("mean_friction_power", REAL, NULL, "l^2 gamma^3", result.mean_friction_power)
     WORLD("mean_medium_power", REAL, NULL, "l^2 gamma^3", world.mean_medium_power)

@@ -6,6 +6,7 @@ import json
 import math
 import os
 import unittest
+from decimal import Decimal
 
 from sweep_tools import Case, festoon
 
@@ -91,6 +92,54 @@ class Fields(Case):
         two = json.loads(self.good("field", *sets(drive__frequency="10 Hz"), "--at", "-0.2,0.5", "--time", "25ms", "--json"))["b"]
         for wanted, found in zip((-one[1], one[0], one[2]), two):
             self.assertAlmostEqual(wanted, found, delta=1e-12)
+
+    def test_a_table_and_a_place_tell_the_same_field(self):
+        """Of all that makes one, bit for bit, in every scene: --csv, --at, and --time 0."""
+        disc = self.path("fixed.yaml")
+        with open(disc, "w", encoding="utf-8") as out:
+            out.write("magnet:\n  shape: parts\n  depth: 10 mm\n  parts:\n    - {kind: cylinder, centre: [5 mm, 0 mm, 0 mm],"
+                      " size: [10 mm, 5 mm], remanence: [0 T, 0 T, 1 T], motion: fixed}\n")
+        scenes = [os.path.join(WORLDS, name) for name in sorted(os.listdir(WORLDS))]
+        scenes += [os.path.join(WORLDS, os.pardir, "magnets", name) for name in ("cross.yaml", "halbach.yaml", "measured-map.yaml")]
+        for scene in [disc, *scenes, os.path.join(WORLDS, os.pardir, "paper-10.7Hz.yaml")]:
+            known = IN_TESLA if "paper" in scene or "bowl" in scene or "water" in scene else []
+            self.good("field", scene, *known, "--csv", self.path("f.csv"), "--radius", "20mm", "--spacing", "5mm")
+            with open(self.path("f.csv"), encoding="utf-8") as table:
+                rows = {tuple(line.split(",")[:2]): line.split(",") for line in table if line[0] not in "#x"}
+            for place in (("5", "-15"), ("-20", "10")):
+                at = "{}mm,{}mm".format(*place)
+                told = json.loads(self.good("field", scene, *known, "--at", at, "--units", "si", "--json"))
+                with self.subTest(scene=scene, at=at):
+                    self.assertEqual([float(Decimal(cell.strip()).scaleb(-3)) for cell in rows[place][3:6]], told["b_tesla"])
+                    self.assertGreater(max(map(abs, told["b_tesla"])), 1e-5)
+                    if "measured" in scene:  # a map has one height
+                        continue
+                    then = json.loads(self.good("field", scene, *known, "--at", at, "--time", "0", "--json"))
+                    for one, other in zip(told["b"], then["b"]):
+                        self.assertAlmostEqual(one, other, delta=0.0 if "magnets" not in scene and "paper" not in scene else 1e-14 * max(map(abs, told["b"])))
+        with_force = json.loads(self.good("field", disc, "--at", "5mm,2mm", "--json"))
+        self.assertGreater(math.hypot(*with_force["force"]), 0.0)
+        self.assertIn(" mT", self.good("field", disc, "--at", "5mm,2mm", "--units", "lab"))
+        self.assertIn("fields in mT", self.good("field", disc, "--at", "5mm,2mm", "--units", "lab", "--time", "1"))
+        # the wave's height is the bead's, also where another one is asked
+        wave = os.path.join(WORLDS, "wave.yaml")
+        low, high = (json.loads(self.good("field", wave, "--at", "0,0", "--json", *words))["b_tesla"][0] for words in ((), ("--height", "7.5mm")))
+        base = json.loads(self.good("field", wave, "--at", "0,0", "--json"))["height"] * 23.0
+        self.assertAlmostEqual(high / low, math.exp(-2 * math.pi * (7.5 - base) / 60), delta=1e-12)
+
+    def test_figures_of_all_fields(self):
+        """Also of a field that is the same everywhere, and of none."""
+        coils = os.path.join(WORLDS, "coils.yaml")
+        for name, words, levels in (("all", (), True), ("load", ("--quantity", "load"), False),
+                                    ("none", sets(**{f"coils[{i}].{key}": "0 A" for i in range(2) for key in ("current", "ac")}), False)):
+            with self.subTest(name=name):
+                self.good("field", coils, *words, "-o", self.path("f.svg"))
+                with open(self.path("f.gp"), encoding="utf-8") as script, open(self.path("f.dat"), encoding="utf-8") as data:
+                    self.assertEqual("set cntrparam" in script.read(), levels)
+                    x, y, shown = map(float, next(line for line in data if line[0] not in "#\n").split())
+                told = json.loads(self.good("field", coils, *words[2 * (words[:1] == ("--quantity",)):], "--at", f"{x},{y}", "--json"))
+                wanted = told["load"] if name == "load" else math.hypot(*told["b"])
+                self.assertAlmostEqual(shown, wanted, delta=2e-4 * abs(wanted))
 
     def test_orbit_of_a_swinging_magnet(self):
         words = [*sets(drive__waveform="oscillating", drive__amplitude="20 deg", drive__frequency="30 Hz",

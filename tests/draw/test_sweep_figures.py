@@ -162,7 +162,7 @@ class Maps(Figures):
         self.sweep("c.db", "friction.law=coulomb,viscous")
         script, blocks = self.plot("c.db", "--quantity", "mean_r")
         self.assertIn("set xtics ('viscous' 0, 'coulomb' 1)", script)
-        self.assertEqual([x for x, _ in blocks["panel1-curve1"]], [1, 0])
+        self.assertEqual([x for x, _ in blocks["panel1-curve1"]], [0, 1])
 
     def test_only_figures_that_can_be_made_are_named(self):
         """What the end of a sweep recommends is done, with one axis to three."""
@@ -353,6 +353,31 @@ class Slices(Figures):
         self.assertEqual(len(self.curves(self.plot("m.db", "--quantity", "mean_r", "--kind", "curves")[1], 1)), 8)
         self.sweep("n.db", "model.kappa=1:2:9", "drive.frequency=9Hz:12Hz:9")
         self.assertIn("too many", self.refused("plot", self.path("n.db"), "--kind", "curves", "-o", self.path("f.svg")))
+
+    def test_lines_follow_the_axis(self):
+        """Also of a list, and of a random axis; a key is without the digits that rounding left."""
+        for name, axis in (("r.db", "drive.frequency=9Hz:12Hz:random:5"), ("l.db", "drive.frequency=11,9,10,12,9.5")):
+            rows = self.sweep(name, "bead.inertia=0.3:0.45:4", axis)
+            script, blocks = self.plot(name, "--quantity", "mean_r")
+            self.assertIn("bead.inertia 0.4 ", words(script) + " ")
+            self.assertNotRegex(words(script), "9999|0000")
+            for curve, inertia in zip(self.curves(blocks, 1), (0.3, 0.35, 0.4, 0.45), strict=True):
+                wanted = sorted((float(row["drive.frequency"]), 23 * float(row["mean_r"])) for row in rows
+                                if abs(float(row["bead.inertia"]) - inertia) < 1e-9)
+                for (x, y), (f, r) in zip(curve, wanted, strict=True):
+                    self.assertAlmostEqual(x, f, 4)
+                    self.assertAlmostEqual(y, r, 4)
+
+    def test_a_comparison_says_its_slice(self):
+        self.sweep("a.db", *self.AXES[:1], self.AXES[2])
+        self.sweep("b.db", *self.AXES[:1], self.AXES[2], "friction.law=rolling")
+        self.sweep("c.db", *self.AXES[:1])
+        for radius in ("2", "2.5"):  # the latter is as by default
+            script = self.over("a.db", "b.db", "--only", f"bead.radius={radius}mm")[0]
+            self.assertEqual(words(script).count(f"bead.radius {radius} mm"), 1, words(script))
+        script = self.over("a.db", "c.db", "--only", "bead.radius=2mm")[0]
+        for radius in ("2", "2.5"):
+            self.assertIn(f"bead.radius {radius} mm", words(script))
 
     def test_how_long_runs_are(self):
         for settings, told in ((("run.periods=6", "run.discard=2"), "4 runs of 6 turns of the magnet"), (("run.duration=0.25s",), "4 runs of 0.25 s")):

@@ -77,7 +77,7 @@ export default {
         steppingSteady: "Zeitschritte kennen nur einen Magneten, der sich gleichmäßig unter einer waagerechten Platte dreht: für {key} run.method exact wählen",
         noRolling: "Kugeln, die sich berühren, können nicht alle ohne Gleiten rollen: friction.law muss viscous, coulomb oder none sein",
         rigidBeads: "mehrere Kugeln bewegen sich als starre Kugeln: model.dynamics muss rigid sein",
-        noMap: "Kugeln, die sich berühren, verlassen die Platte, und das gemessene Feld in magnet.file gilt in einer Ebene: für magnet.shape lines oder parts wählen",
+        noMap: "mehrere Kugeln, oder eine in einer Umgebung, brauchen das Feld im Raum, und das gemessene in magnet.file gilt in einer Ebene: für magnet.shape lines oder parts wählen",
         hardBeads: "mehrere Kugeln sind bisher Dauermagnete: bead.material muss hard sein",
         pointContacts: "mehrere Kugeln reiben trocken an Punkten, mit je einer Reibungszahl an der Platte und zwischen Kugeln: {key} lassen, wie es ist",
         pairMu: "contact.pair_mu bewirkt nichts ohne trockene Reibung: für friction.law coulomb wählen",

@@ -85,7 +85,7 @@ export default {
         steppingSteady: "time stepping knows a magnet that turns steadily over a level plate alone: choose run.method exact for {key}",
         noRolling: "beads that touch cannot all roll without slip: friction.law must be viscous, coulomb or none",
         rigidBeads: "several beads move as rigid spheres: model.dynamics must be rigid",
-        noMap: "beads that touch leave the plate, and the map of magnet.file has the field of one plane: choose magnet.shape lines or parts",
+        noMap: "several beads, or one in a world, need the field in space, and the map of magnet.file has that of one plane: choose magnet.shape lines or parts",
         hardBeads: "several beads are hard magnets so far: bead.material must be hard",
         pointContacts: "several beads have dry friction at points, of one coefficient at the plate and one between beads: leave {key} as it is",
         pairMu: "contact.pair_mu has no effect without dry friction: set friction.law to coulomb",

@@ -77,7 +77,7 @@ export default {
         steppingSteady: "los pasos de tiempo solo conocen un imán que gira uniformemente bajo una placa horizontal: elige run.method exact para {key}",
         noRolling: "las bolas que se tocan no pueden rodar todas sin deslizar: friction.law debe ser viscous, coulomb o none",
         rigidBeads: "varias bolas se mueven como esferas rígidas: model.dynamics debe ser rigid",
-        noMap: "las bolas que se tocan dejan la placa, y el campo medido de magnet.file es de un solo plano: elige lines o parts para magnet.shape",
+        noMap: "varias bolas, o una en un entorno, necesitan el campo en el espacio, y el medido de magnet.file es de un solo plano: elige lines o parts para magnet.shape",
         hardBeads: "varias bolas son por ahora imanes permanentes: bead.material debe ser hard",
         pointContacts: "varias bolas rozan en seco en puntos, con un coeficiente en la placa y otro entre bolas: deja {key} como está",
         pairMu: "contact.pair_mu no tiene efecto sin rozamiento seco: elige coulomb para friction.law",

@@ -77,7 +77,7 @@ export default {
         steppingSteady: "les pas de temps ne connaissent qu’un aimant qui tourne régulièrement sous une plaque horizontale : choisissez run.method exact pour {key}",
         noRolling: "des billes qui se touchent ne peuvent pas toutes rouler sans glisser : friction.law doit être viscous, coulomb ou none",
         rigidBeads: "plusieurs billes se meuvent comme des sphères rigides : model.dynamics doit être rigid",
-        noMap: "des billes qui se touchent quittent la plaque, et le champ mesuré de magnet.file est celui d’un seul plan : choisissez lines ou parts pour magnet.shape",
+        noMap: "plusieurs billes, ou une dans un environnement, demandent le champ dans l’espace, et celui de magnet.file est mesuré dans un seul plan : choisissez lines ou parts pour magnet.shape",
         hardBeads: "plusieurs billes sont jusqu’ici des aimants durs : bead.material doit être hard",
         pointContacts: "plusieurs billes frottent à sec en des points, avec un coefficient à la plaque et un entre billes : laissez {key} tel quel",
         pairMu: "contact.pair_mu est sans effet sans frottement sec : choisissez coulomb pour friction.law",

@@ -77,7 +77,7 @@ export default {
         steppingSteady: "时间步进只适用于在水平平板下匀速转动的磁铁：有 {key} 时请选择 run.method exact",
         noRolling: "互相接触的小球不可能都无滑滚动：friction.law 必须是 viscous、coulomb 或 none",
         rigidBeads: "几个小球按刚性球运动：model.dynamics 必须是 rigid",
-        noMap: "互相接触的小球会离开平板，而 magnet.file 的实测磁场只有一个平面：magnet.shape 请选择 lines 或 parts",
+        noMap: "多个小球或处于环境中的一个小球需要空间中的磁场，而 magnet.file 的实测磁场只有一个平面：magnet.shape 请选择 lines 或 parts",
         hardBeads: "目前几个小球都是永磁体：bead.material 必须是 hard",
         pointContacts: "几个小球在点上有干摩擦，与平板一个系数，小球之间一个系数：{key} 请保持原样",
         pairMu: "没有干摩擦时 contact.pair_mu 不起作用：friction.law 请设为 coulomb",

@@ -1,0 +1,134 @@
+/* field.c - the field at a place: of the turning magnet, and of all else that makes one. */
+#include "model/surroundings.h"
+
+#include <festoon/beads.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "model/params.h"
+#include "model/worlds.h"
+
+/* The surroundings of a model, on the laboratory's axes at a time. */
+static fst_status surround(fst_model *model, double time, fst_error *error)
+{
+    fst_surroundings *s = malloc(sizeof *s);
+    model->surroundings = s;
+    if (!s)
+        return fst_fail(error, FST_NO_MEMORY, "fst_field_model_new", "out of memory");
+    const fst_status status = fst_make_surroundings(model, s, error);
+    if (status == FST_OK) {
+        s->laboratory = 1;
+        (void)fst_waveform_enter(&s->drive, time);
+    }
+    return status;
+}
+
+fst_status fst_field_model_new(const fst_params *params, double height, fst_model **model, fst_error *error)
+{
+    *model = NULL;
+    fst_model *made = malloc(sizeof *made);
+    fst_status status = made ? fst_model_fill(params, height, made, error)
+                             : fst_fail(error, FST_NO_MEMORY, "fst_model_new", "out of memory");
+    if (status != FST_OK) {
+        free(made);
+        return status;
+    }
+    if (fst_key_of_surroundings(params))
+        status = surround(made, 0.0, error);
+    if (status == FST_OK)
+        *model = made;
+    else
+        fst_model_free(made);
+    return status;
+}
+
+fst_status fst_model_new(const fst_params *params, fst_model **model, fst_error *error)
+{
+    *model = NULL;
+    const fst_status status = fst_check_no_world(params, error);
+    return status == FST_OK ? fst_field_model_new(params, NAN, model, error) : status;
+}
+
+void fst_model_free(fst_model *model)
+{
+    if (!model)
+        return;
+    fst_field_map_free(model->map);
+    free(model->surroundings);
+    free(model);
+}
+
+/* Whether the samples of a measured field surround a place. */
+static int is_known(const fst_model *model, double x, double y)
+{
+    const fst_map_plane *plane = model->world.kinds.plane;
+    const double place[2] = {x * model->groups.length_unit, y * model->groups.length_unit};
+    for (int axis = 0; plane && axis < 2; ++axis) {
+        const double cells = (place[axis] - plane->first[axis]) / plane->spacing[axis];
+        if (!(cells >= -1e-9 && cells <= plane->cells[axis] + 1e-9))
+            return 0;
+    }
+    return 1;
+}
+
+static void write_gradient(const fst_gradient_double *g, double grad[3][3])
+{
+    const double all[3][3] = {{g->xx, g->xy, g->xz}, {g->yx, g->yy, g->yz}, {g->xz, g->yz, -(g->xx + g->yy)}};
+    memcpy(grad, all, sizeof all);
+}
+
+void fst_field(const fst_model *model, double x, double y, double b[3], double grad[3][3])
+{
+    if (!is_known(model, x, y)) {
+        for (int i = 0; i < 3; ++i)
+            b[i] = grad[i][0] = grad[i][1] = grad[i][2] = NAN;
+        return;
+    }
+    fst_gradient_double g;
+    double change[3];
+    if (model->surroundings)
+        fst_surroundings_field(model->surroundings, 0.0, (const double[]){x, y, model->world.height}, b, &g,
+                               change);
+    else
+        fst_field_double(&model->world, x, y, model->world.height, b, &g);
+    write_gradient(&g, grad);
+}
+
+void fst_field_pull(const fst_model *model, double x, double y, double force[3], double *load)
+{
+    const fst_groups *g = &model->groups;
+    double b[3], grad[3][3];
+    fst_field(model, x, y, b, grad);
+    const double norm = sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
+    /* U = -kappa eps^2 B - (a + b) B^2 with n along B, and dB/dx_j = B_i G_ij/B. */
+    const double pull = g->kappa * (g->eps * g->eps) + 2.0 * (g->a + g->b) * norm;
+    for (int j = 0; j < 3; ++j) {
+        const double slope = b[0] * grad[0][j] + b[1] * grad[1][j] + b[2] * grad[2][j];
+        force[j] = norm > 0.0 ? pull * slope / norm : 0.0;
+    }
+    *load = g->gravity - force[2];
+}
+
+fst_status fst_field_at(const fst_params *params, double time, const double place[3], double b[3],
+                        double grad[3][3], fst_error *error)
+{
+    fst_model *model;
+    fst_surroundings s;
+    fst_gradient_double g;
+    double change[3];
+    fst_status status = fst_field_model_new(params, NAN, &model, error);
+    if (status != FST_OK)
+        return status;
+    status = fst_make_surroundings(model, &s, error);
+    if (status == FST_OK) {
+        s.laboratory = 1;
+        (void)fst_waveform_enter(&s.drive, time);
+        fst_surroundings_field(&s, time, place, b, &g, change);
+        write_gradient(&g, grad);
+    }
+    fst_model_free(model);
+    return status;
+}
