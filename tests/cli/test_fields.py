@@ -6,7 +6,6 @@ import json
 import math
 import os
 import unittest
-from decimal import Decimal
 
 from sweep_tools import Case, festoon
 
@@ -94,7 +93,7 @@ class Fields(Case):
             self.assertAlmostEqual(wanted, found, delta=1e-12)
 
     def test_a_table_and_a_place_tell_the_same_field(self):
-        """Of all that makes one, bit for bit, in every scene: --csv, --at, and --time 0."""
+        """Of all that makes one, in every scene, but for rounding: --csv, --at, and --time 0; bit for bit where more than a magnet makes it."""
         disc = self.path("fixed.yaml")
         with open(disc, "w", encoding="utf-8") as out:
             out.write("magnet:\n  shape: parts\n  depth: 10 mm\n  parts:\n    - {kind: cylinder, centre: [5 mm, 0 mm, 0 mm],"
@@ -102,6 +101,7 @@ class Fields(Case):
         scenes = [os.path.join(WORLDS, name) for name in sorted(os.listdir(WORLDS))]
         scenes += [os.path.join(WORLDS, os.pardir, "magnets", name) for name in ("cross.yaml", "halbach.yaml", "measured-map.yaml")]
         for scene in [disc, *scenes, os.path.join(WORLDS, os.pardir, "paper-10.7Hz.yaml")]:
+            surrounded = os.path.basename(scene) in ("fixed.yaml", "coils.yaml", "compass.yaml", "wave.yaml")
             known = IN_TESLA if "paper" in scene or "bowl" in scene or "water" in scene else []
             self.good("field", scene, *known, "--csv", self.path("f.csv"), "--radius", "20mm", "--spacing", "5mm")
             with open(self.path("f.csv"), encoding="utf-8") as table:
@@ -110,13 +110,15 @@ class Fields(Case):
                 at = "{}mm,{}mm".format(*place)
                 told = json.loads(self.good("field", scene, *known, "--at", at, "--units", "si", "--json"))
                 with self.subTest(scene=scene, at=at):
-                    self.assertEqual([float(Decimal(cell.strip()).scaleb(-3)) for cell in rows[place][3:6]], told["b_tesla"])
-                    self.assertGreater(max(map(abs, told["b_tesla"])), 1e-5)
+                    most = max(map(abs, told["b_tesla"]))
+                    self.assertGreater(most, 1e-5)
+                    for cell, wanted in zip(rows[place][3:6], told["b_tesla"], strict=True):
+                        self.assertAlmostEqual(1e-3 * float(cell), wanted, delta=2e-15 * most)
                     if "measured" in scene:  # a map has one height
                         continue
                     then = json.loads(self.good("field", scene, *known, "--at", at, "--time", "0", "--json"))
                     for one, other in zip(told["b"], then["b"]):
-                        self.assertAlmostEqual(one, other, delta=0.0 if "magnets" not in scene and "paper" not in scene else 1e-14 * max(map(abs, told["b"])))
+                        self.assertAlmostEqual(one, other, delta=0.0 if surrounded else 1e-14 * max(map(abs, told["b"])))
         with_force = json.loads(self.good("field", disc, "--at", "5mm,2mm", "--json"))
         self.assertGreater(math.hypot(*with_force["force"]), 0.0)
         self.assertIn(" mT", self.good("field", disc, "--at", "5mm,2mm", "--units", "lab"))
