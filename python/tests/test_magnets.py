@@ -39,6 +39,19 @@ def test_a_sphere_s_field_is_a_dipole_s():
     assert b == pytest.approx([0, 0, 2 * 1.2 * 0.01**3 / (3 * 0.045**3)], rel=1e-12)
 
 
+def test_field_of_a_world():
+    """Of all that makes one: in the middle of a coil mu_0 N I/(2 R), less on its axis."""
+    scenes = pathlib.Path(__file__).resolve().parents[2] / "examples/worlds"
+    world = fs.World(str(scenes / "coils.yaml"))
+    middle = 4e-7 * np.pi * 200 * 2 / (2 * 0.1)
+    b, grad = world.field(np.array([0, 0.05]), 0, units="si")
+    assert b[0] == pytest.approx([middle, 0, 0], abs=1e-12)
+    assert b[1, 0] == pytest.approx(middle * (1 + 0.25) ** -1.5, rel=1e-9) and grad[1, 0, 0] < 0
+    for height in (0, -1):
+        with pytest.raises(fs.BadInput, match="height"):
+            fs.World(str(scenes / "compass.yaml")).field(0, 0, height=height)
+
+
 def test_sweep_over_a_part():
     bead = fs.Bead(magnet__parts=[BALL], magnet__depth="40 mm", run__periods=2)
     s = fs.sweep(bead, **{"magnet.parts[0].centre[2]": ["-6 mm", -0.005]})

@@ -127,6 +127,13 @@ def test_sweep_of_two_parameters():
     assert set(words(ax)) == set(s.regime.ravel()) and ax.get_xlabel() == "magnetic strength κ"
     # A part of a sweep over two parameters is one over one.
     assert np.allclose(curve(s[:, 1].plot("std_r")), [[9, 10, 14, 18], 23 * s.std_r[:, 1]], rtol=1e-12)
+    # Lines go along a random axis, whatever was drawn first.
+    s = fs.sweep(bead.replace(run__periods=4, run__discard=2), frequency="9:20:random:4", kappa=[1.8, 1.2], seed=3)
+    f = s.axes[0].values
+    assert (np.diff(f) < 0).any()
+    for ax in (s.plot("mean_r"), s.plot("mean_r", x="drive__frequency")):
+        for i in range(2):
+            assert np.allclose(curve(ax, i), [np.sort(f), 23 * s.mean_r[np.argsort(f), i]], rtol=1e-12)
 
 
 def test_failed_runs_are_gaps_and_named():

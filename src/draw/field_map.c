@@ -331,9 +331,10 @@ static void put_colours(fst_field_picture *picture, const survey *s)
 {
     const int component = s->quantity >= FST_FIELD_X && s->quantity <= FST_FIELD_Z, even = is_even(s);
     const double strongest = fmax(fabs(s->least), fabs(s->greatest)), most = strongest > 0.0 ? strongest : 1.0;
+    const double low = even ? fmin(s->least, 0.0) : s->least;
+    const double high = !even ? s->greatest : low < 0.0 ? 0.0 : most;
     picture->colours = component ? (fst_colour_range){FST_PALETTE_DIVERGING, -most, most}
-                                 : (fst_colour_range){FST_PALETTE_MAP, even ? fmin(s->least, 0.0) : s->least,
-                                                      even ? most : s->greatest};
+                                 : (fst_colour_range){FST_PALETTE_MAP, low, high};
 }
 
 /* The map shows the poles and the corners of the magnet, with room about them that grows with the height. */

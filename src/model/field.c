@@ -11,18 +11,15 @@
 #include "model/params.h"
 #include "model/worlds.h"
 
-/* The surroundings of a model, on the laboratory's axes at a time. */
-static fst_status surround(fst_model *model, double time, fst_error *error)
+/* Give a model its surroundings, on the laboratory's axes. */
+static fst_status surround(fst_model *model, fst_error *error)
 {
     fst_surroundings *s = malloc(sizeof *s);
     model->surroundings = s;
     if (!s)
         return fst_fail(error, FST_NO_MEMORY, "fst_field_model_new", "out of memory");
     const fst_status status = fst_make_surroundings(model, s, error);
-    if (status == FST_OK) {
-        s->laboratory = 1;
-        (void)fst_waveform_enter(&s->drive, time);
-    }
+    s->laboratory = 1;
     return status;
 }
 
@@ -37,7 +34,7 @@ fst_status fst_field_model_new(const fst_params *params, double height, fst_mode
         return status;
     }
     if (fst_key_of_surroundings(params))
-        status = surround(made, 0.0, error);
+        status = surround(made, error);
     if (status == FST_OK)
         *model = made;
     else
@@ -116,17 +113,14 @@ fst_status fst_field_at(const fst_params *params, double time, const double plac
                         double grad[3][3], fst_error *error)
 {
     fst_model *model;
-    fst_surroundings s;
     fst_gradient_double g;
     double change[3];
     fst_status status = fst_field_model_new(params, NAN, &model, error);
-    if (status != FST_OK)
-        return status;
-    status = fst_make_surroundings(model, &s, error);
+    if (status == FST_OK && !model->surroundings)
+        status = surround(model, error);
     if (status == FST_OK) {
-        s.laboratory = 1;
-        (void)fst_waveform_enter(&s.drive, time);
-        fst_surroundings_field(&s, time, place, b, &g, change);
+        (void)fst_waveform_enter(&model->surroundings->drive, time);
+        fst_surroundings_field(model->surroundings, time, place, b, &g, change);
         write_gradient(&g, grad);
     }
     fst_model_free(model);

@@ -335,6 +335,23 @@ static void a_curve_breaks_where_it_is_not_a_number(void **state)
     free(data);
 }
 
+static void an_axis_of_equal_values_has_numbers_that_differ(void **state)
+{
+    (void)state;
+    const double x[] = {0, 1, 2}, y[] = {0.607179, 0.607179 + 1e-11, 0.607179 - 1e-11};
+    fst_chart_curve curve = {.title = "curve", .x = x, .y = y, .count = 3, .colour = FST_COLOUR_BLUE};
+    fst_chart_panel panel = {.left_label = "y", .low = NAN, .high = NAN, .curves = &curve, .curve_count = 1};
+    fst_chart chart = {.title = "a chart", .x_label = "x", .x_high = 2.0, .panels = &panel, .panel_count = 1};
+    assert_int_equal(fst_figure_chart(inside("chart.svg"), &chart, NULL), FST_OK);
+    size_t size;
+    char *script = contents("chart.gp", &size), *range = strstr(script, "set yrange [");
+    double low, high;
+    assert_non_null(range);
+    assert_int_equal(sscanf(range, "set yrange [%lf:%lf]", &low, &high), 2);
+    assert_true(low < 0.6 && high > 0.61);
+    free(script);
+}
+
 /* Hermite's interpolation is exact for cubics, and its error on a sine falls as h^4. */
 static void between_samples_the_path_is_smooth(void **unused)
 {
@@ -555,6 +572,7 @@ int main(void)
         cmocka_unit_test_teardown(no_line_ends_inside_a_number, clear_directory),
         cmocka_unit_test_teardown(the_field_shows_its_maxima, clear_directory),
         cmocka_unit_test_teardown(a_curve_breaks_where_it_is_not_a_number, clear_directory),
+        cmocka_unit_test_teardown(an_axis_of_equal_values_has_numbers_that_differ, clear_directory),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     (void)rmdir(directory);

@@ -92,10 +92,13 @@ class Material(unittest.TestCase):
                 results = [row[rows[0].index("mean_r"):rows[0].index("mean_nz")] for row in rows[1:]]
                 self.assertEqual(bool(idle), all(row == results[0] for row in results) and results[0][0] != "", axes)
             dry = ["--set", "friction.law=coulomb"]
+            coil = ["--set", "magnet.b0=7mT", "--set", "coils[0].radius=15mm"]
             for i, (axes, more, idle) in enumerate((  # what has no effect at all
                     (["friction.mu=0.1,0.2"], [], "friction.mu"), (["friction.mu=0.1,0.2", "friction.law=viscous,none"], [], "friction.mu"),
                     (["friction.mu=0.1,0.2", "friction.law=viscous,coulomb"], [], None), (["start.phi=3,363"], [], "start.phi"),
-                    (["friction.mu=0.1,0.2"], dry, None), (["plate.gravity=9,10"], [], None), (["bead.moment=1,1"], [], "bead.moment"))):
+                    (["friction.mu=0.1,0.2"], dry, None), (["plate.gravity=9,10"], [], None), (["bead.moment=1,1"], [], "bead.moment"),
+                    (["coils[0].radius=10mm,20mm"], coil, "coils[0].radius"),
+                    (["coils[0].radius=10mm,20mm"], [*coil, "--set", "coils[0].current=1A"], None))):
                 words = [word for axis in axes for word in ("--over", axis)] + more
                 status, out, err = festoon("sweep", *words, *SHORT, "-o", str(Path(folder) / f"idle{i}.db"))
                 told = [line.split("along ")[1].split(" the motion")[0] for line in err.splitlines() if "the motion does not change" in line]
