@@ -1,6 +1,6 @@
 """Fields that stand still, drives and waves by the program: run, field --time, orbit, and what is refused in words.
 
-tests: cli/run_world.c cli/field.c cli/orbit.c io/scene.c model/coil_rows.c model/waveform.c orbit/world_orbit.c"""
+tests: cli/run_world.c cli/field.c model/field.c draw/field_map.c draw/figure_field.c cli/orbit.c io/scene.c model/coil_rows.c model/waveform.c orbit/world_orbit.c"""
 
 import json
 import math

@@ -1,6 +1,6 @@
 /* The equations of motion and what is read off a state, against a second writing in plain vectors, and the
  * scaled groups that follow from parameters in SI.
- * tests: model/model.c model/dynamics.inl model/observe.inl model/world.inl */
+ * tests: model/model.c model/field.c model/dynamics.inl model/observe.inl model/world.inl */
 #include "physics.h"
 
 #include "model/model.h"
