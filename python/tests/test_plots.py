@@ -131,7 +131,7 @@ def test_sweep_of_two_parameters():
     s = fs.sweep(bead.replace(run__periods=4, run__discard=2), frequency="9:20:random:4", kappa=[1.8, 1.2], seed=3)
     f = s.axes[0].values
     assert (np.diff(f) < 0).any()
-    for ax in (s.plot("mean_r"), s.plot("mean_r", x="drive__frequency")):
+    for ax in (s.plot("mean_r"), s.plot("mean_r", x="frequency")):
         for i in range(2):
             assert np.allclose(curve(ax, i), [np.sort(f), 23 * s.mean_r[np.argsort(f), i]], rtol=1e-12)
 

@@ -382,7 +382,7 @@ static void test_refused(void **unused)
     check_refused(beads, 2, NULL, "model.dynamics must be rigid");
     two_beads(180, beads);
     beads[0].magnet_shape = FST_MAGNET_GRID;
-    check_refused(beads, 2, NULL, "has the field of one plane");
+    check_refused(beads, 2, NULL, "has that of one plane");
 }
 
 /* A caller who says stop is obeyed. */
