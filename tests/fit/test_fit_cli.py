@@ -109,6 +109,14 @@ class Fit(unittest.TestCase):
         self.assertEqual([(o["line"], o["column"], o["column_number"]) for o in fit["outliers"]], [(4, "bead_frequency", 6)])
         self.assertAlmostEqual(fit["parameters"][1]["value"] / 290, 1, 4)
 
+    def test_a_film_in_slow_motion(self):
+        """Rates that are 8 times too low are those of no bead near the scene: the fit ends at once, and says so."""
+        slow = [self.rows[0][0] / 8, *self.rows[0][1:5], self.rows[0][5] / 8, 0.0001]
+        status, out, err = festoon("fit", self.write("slow.csv", [slow]), "--free", "model.kappa,friction.gamma")
+        self.assertEqual((status, out), (1, ""), err)
+        self.assertIn("no motion like the measured one", err)
+        self.assertIn("stored as 30", err)
+
     def test_given_has_units_and_may_be_repeated(self):
         status, out, err = festoon("fit", self.table, "--free", "model.kappa", "--given", "magnet.depth=16.2+-0.2 mm",
                                    "--given", "friction.gamma=290 1/s +- 5 1/s", "--json")
