@@ -62,9 +62,12 @@ typedef struct fst_film_track_report {
     int first_lost, missing; /* the first lost frame (-1: none); frames that the clock leaves room for */
     double fps, least_step, most_step; /* mean frames a second; shortest and longest time between frames, s */
     double tick;                       /* of the film's clock, s; 0: unknown */
-    double diameter, diameter_error;   /* of the bead without its shadow, pixels */
-    double shadow;                     /* how dark its shadow is, in parts of its contrast; 0: there is none */
-    double noise, contrast;            /* of a pixel, gray levels; of the bead, gray levels */
+    /* Slow motion: frames a second at which a phone says that it took the film, which gives the times, and at which
+     * the file stores it.  0: the times are the file's. */
+    double taken_fps, stored_fps;
+    double diameter, diameter_error; /* of the bead without its shadow, pixels */
+    double shadow;                   /* how dark its shadow is, in parts of its contrast; 0: there is none */
+    double noise, contrast;          /* of a pixel, gray levels; of the bead, gray levels */
     double
         shake; /* pixels that the camera moved, rms; the track is on the plate, without it; 0: it stood still */
     double roll;   /* degrees (rms) by which it turned about its own axis, which the track has; 0: not seen */

@@ -18,7 +18,10 @@ static const option options[] = {
     {"scale", '\0', "SCALE",
      "\"bead 5 mm\", \"plate 460 mm\", \"X1,Y1:X2,Y2=50mm\", or four corners \"...=80x60mm\"; \"A; B\": "
      "A, compared with B"},
-    {"fps", '\0', "F", "frames a second of the film, instead of its clock; a folder of images needs it"},
+    {"fps", '\0', "F",
+     "frames a second of the film, instead of its clock, which the rate corrects at which a phone says that it "
+     "took "
+     "slow motion; a folder of images needs it"},
     {"distance", '\0', "LENGTH", "from the camera to the plate: allows for the bead's height above it"},
     {"turning", '\0', "DIAMETER",
      "how a bead with marks turns: adds columns for n, W and the slip; its diameter, as 5mm, by callipers"},
@@ -81,6 +84,18 @@ static void print_names(const fst_film_track_report *r, FILE *out)
         (void)fprintf(out, "            and %d times more\n", r->doubt_count - SHOWN_DOUBTS);
 }
 
+/* Which clock it was. */
+static void tell_slow_motion(const fst_film_track_report *r, FILE *out)
+{
+    if (r->taken_fps > 0.0)
+        (void)fprintf(
+            out,
+            "            the film says that it was taken at %.6g frames a second, and is stored at %.6g: "
+            "times are those at\n"
+            "            which it was taken (--fps gives others)\n",
+            r->taken_fps, r->stored_fps);
+}
+
 static void print_report(const fst_film_track_report *r, FILE *out)
 {
     char text[SHOWN_SIZE];
@@ -89,6 +104,7 @@ static void print_report(const fst_film_track_report *r, FILE *out)
     if (r->most_step - r->least_step > fmax(0.01 * r->least_step, 1.5 * r->tick)) /* a coarse clock rounds */
         (void)fprintf(out, "            the frame rate varies: %.4g to %.4g ms from frame to frame\n",
                       1e3 * r->least_step, 1e3 * r->most_step);
+    tell_slow_motion(r, out);
     if (r->missing)
         (void)fprintf(out, "            the clock leaves room for %d more, which the film does not have\n",
                       r->missing);
@@ -286,6 +302,7 @@ static fst_status track_several(const arguments *given, fst_film_track_options *
             (void)snprintf(scale, sizeof scale, "%.5g", report.scale);
         (void)fprintf(out, "%8d %10.6g %6d %10.1f %12s  %s\n", report.frames, report.fps, report.lost,
                       report.diameter, scale, shown(to, text));
+        tell_slow_motion(&report, out);
         char told[64];
         (void)snprintf(told, sizeof told, ": %d frames, %d lost", report.frames, report.lost);
         tell_written(to, told);

@@ -151,7 +151,11 @@ static fst_status follow(tracking *t, const fst_progress *progress, fst_error *e
     if (t->source.descriptor < 0 && t->frames < t->source.frames)
         return fst_fail(error, FST_BAD_INPUT, t->path, "%d of its %d images can be decoded: %.200s", t->frames,
                         t->source.frames, decoder.child.said);
-    const int announced = t->source.announced > t->source.frames ? t->source.announced : t->source.frames;
+    /* An mp4 that was cut without coding it anew still counts what its edit list hides; of one that is incomplete
+     * ffmpeg complains. */
+    const int counts_hidden = strncmp(t->source.format, "mov,", 4) == 0 && !decoder.child.said[0];
+    const int announced =
+        t->source.announced > t->source.frames && !counts_hidden ? t->source.announced : t->source.frames;
     if (!well || decoder.child.said[0] || t->frames < announced)
         (void)snprintf(t->report->remark, sizeof t->report->remark,
                        "%d of %d frames could be decoded; ffmpeg says: %.150s", t->frames, announced,
@@ -207,6 +211,8 @@ static fst_status tell_times(tracking *t, fst_error *error)
             r->missing += room[i] > 1.5 * usual ? (int)fmin(1e6, floor(room[i] / usual + 0.5) - 1.0) : 0;
     }
     r->tick = t->source.tick;
+    r->taken_fps = t->source.taken_fps;
+    r->stored_fps = t->source.stored_fps;
     r->jitter = jitter_of(t, room);
     free(room);
     return FST_OK;

@@ -15,11 +15,17 @@
 
 #include "base/error.h"
 #include "base/grow.h"
+#include "base/order.h"
 #include "base/watch.h"
 #include "host/process.h"
 #include "host/regular_file.h"
 
 enum { MOST_FRAMES = 20000000, LINE_SIZE = 256, MOST_IMAGES = 1000000 };
+
+/* How often a second a phone with Android took a picture.  Slow motion is stored slower than that, and its clock with
+ * it.  Apple's phones store what they took with the true clock, and slow it down when it is shown. */
+#define CAPTURE_TAG "com.android.capture.fps"
+#define SLOW_MOTION 1.5 /* rates that differ less are those of an uneven clock */
 
 /* ------------------------------------------------------------------ asking ffprobe */
 
@@ -29,6 +35,7 @@ typedef struct answer {
     double expected; /* frames, as the head of the film says; 0: unknown */
     double unit;     /* s of a tick of its clock */
     double seconds, rate;
+    double taken; /* frames a second, as the phone says; 0: it does not */
     int streams, without_time;
     int64_t *ticks;
 } answer;
@@ -79,6 +86,8 @@ static fst_status take_line(answer *a, const char *line, fst_error *error)
         a->rate = ratio(value);
     } else if (strncmp(line, "duration=", 9) == 0) {
         a->seconds = strtod(value, NULL);
+    } else if (strncmp(line, "TAG:" CAPTURE_TAG "=", sizeof "TAG:" CAPTURE_TAG) == 0) {
+        a->taken = strtod(value, NULL);
     } else if (strncmp(line, "format_name=", 12) == 0) {
         copy_word(a->source->format, sizeof a->source->format, value);
     }
@@ -173,12 +182,49 @@ static fst_status make_times(follow_source *s, const answer *a, double fps, fst_
     return FST_OK;
 }
 
+/* The time from a frame to the next one, where none is missing: by the mean, because a coarse clock rounds. */
+static fst_status usual_step(const follow_source *s, double *step, fst_error *error)
+{
+    const int count = s->frames - 1;
+    double *room = malloc((size_t)count * sizeof *room), steps = 0.0;
+    if (!room)
+        return fst_fail(error, FST_NO_MEMORY, s->path, "no memory for its times");
+    for (int i = 0; i < count; ++i)
+        room[i] = s->times[i + 1] - s->times[i];
+    const double usual = fst_median(room, (size_t)count);
+    for (int i = 0; i < count; ++i)
+        steps += fmax(1.0, floor(room[i] / usual + 0.5));
+    *step = (s->times[count] - s->times[0]) / steps;
+    free(room);
+    return FST_OK;
+}
+
+/* Slow motion, and time lapse: give each frame the time at which it was taken. */
+static fst_status undo_slow_motion(follow_source *s, double taken, fst_error *error)
+{
+    double step = 0.0;
+    if (!(taken > 0.0 && taken <= 1e6) || s->frames < 2)
+        return FST_OK;
+    const fst_status status = usual_step(s, &step, error);
+    const double slower = taken * step;
+    if (status != FST_OK || (slower < SLOW_MOTION && slower > 1.0 / SLOW_MOTION))
+        return status;
+    for (int i = 0; i < s->frames; ++i)
+        s->times[i] /= slower;
+    s->tick /= slower;
+    s->taken_fps = taken;
+    s->stored_fps = 1.0 / step;
+    return FST_OK;
+}
+
 static fst_status open_film(follow_source *s, double fps, const fst_progress *progress, fst_error *error)
 {
     answer a = {.source = s};
     fst_status status = fst_open_regular(s->path, &s->descriptor, error);
     if (status == FST_OK)
-        status = ask(&a, "stream=codec_name,time_base,nb_frames,avg_frame_rate:format=format_name,duration",
+        status = ask(&a,
+                     "stream=codec_name,time_base,nb_frames,avg_frame_rate:format=format_name,duration:"
+                     "format_tags=" CAPTURE_TAG,
                      NULL, error);
     if (status == FST_OK && a.streams == 0)
         status = fst_fail(error, FST_BAD_INPUT, s->path, "there are no pictures in this file");
@@ -192,6 +238,8 @@ static fst_status open_film(follow_source *s, double fps, const fst_progress *pr
         status = fst_fail(error, FST_BAD_INPUT, s->path, "none of its pictures can be decoded");
     if (status == FST_OK)
         status = make_times(s, &a, fps, error);
+    if (status == FST_OK && isnan(fps))
+        status = undo_slow_motion(s, a.taken, error);
     free(a.ticks);
     return status;
 }

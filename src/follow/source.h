@@ -9,14 +9,17 @@
 #include <festoon/festoon_tools.h>
 
 typedef struct follow_source {
-    const char *path;           /* the caller's */
-    int descriptor;             /* of the film; -1: a folder of images */
-    char **images;              /* the names of the images, in the order of the film */
-    int image_count, skipped;   /* images, and other files in the folder */
-    const char *demuxer;        /* of the images: "png_pipe" */
-    double *times;              /* s, of each frame; NULL where the film has no clock */
-    int frames, announced;      /* counted by decoding them; as the film's head says, 0: it does not */
-    double tick;                /* of the film's clock, s; 0: unknown */
+    const char *path;         /* the caller's */
+    int descriptor;           /* of the film; -1: a folder of images */
+    char **images;            /* the names of the images, in the order of the film */
+    int image_count, skipped; /* images, and other files in the folder */
+    const char *demuxer;      /* of the images: "png_pipe" */
+    double *times;            /* s, of each frame; NULL where the film has no clock */
+    int frames, announced;    /* counted by decoding them; as the film's head says, 0: it does not */
+    double tick;              /* of the film's clock, s; 0: unknown */
+    /* Frames a second at which the film says that it was taken, and at which it is stored, where its clock was
+     * corrected for that; 0: it was not. */
+    double taken_fps, stored_fps;
     char format[64], codec[64]; /* as ffprobe calls them, for a person */
 } follow_source;
 

@@ -47,6 +47,27 @@ class Track(films.OnFilms):
         self.assertNotIn("camera  ", done.stdout)  # which stands still, in good light
         self.assertNotIn("gray levels of 255 only", done.stderr)
 
+    def test_slow_motion(self):
+        """The phone's own word for how often it took a picture corrects the clock of a film that plays slowly, as far
+        as --fps says nothing else; a film whose clock is right keeps it."""
+        for slower, stored, options, rate in ((8, "30", (), 240), (8, "30", ("--fps", "60"), 60), (1, "", (), 240)):
+            film = self.folder / "slow.mp4"
+            ffmpeg("-itsscale", str(slower), "-i", self.folder / "a.mp4", "-c", "copy", "-movflags", "use_metadata_tags",
+                   "-metadata", "com.android.capture.fps=240", film)
+            out, done = self.track(film, *options)
+            for i, row in enumerate(films.read(out)[1]):
+                self.assertAlmostEqual(row[1], i / rate, places=9)
+            told = f"taken at 240 frames a second, and is stored at {stored}:"
+            self.assertEqual(told in done.stdout, stored != "" and not options, done.stdout)
+
+    def test_a_cut_without_coding_anew(self):
+        """What an edit list hides is not missed."""
+        film = self.folder / "cut.mp4"
+        ffmpeg("-ss", "0.1", "-i", self.folder / "a.mp4", "-c", "copy", film)
+        out, done = self.track(film)
+        self.assertLess(len(films.read(out)[1]), len(films.read(self.folder / "a.truth.csv")[1]) - 20)
+        self.assertNotIn("could be decoded", done.stderr)
+
     def test_millimetres(self):
         """By the plate's edge and by four marks of a tilted plate: lengths within half a percent.  The bead's own
         diameter, nine pixels here, gives them within half a pixel."""
