@@ -7,4 +7,4 @@ export const ARROWS = { moment: "#f2c230", field: "#7fd0ff", friction: "#ff8a5c"
  * dry friction may be a fifth: its arrow stays in the picture of a camera that rides with the bead. */
 export const FRICTION = 0.4, LOAD = 0.12;
 /* The colours of several beads, as in figures (FST_COLOURS, style.c), and the dot of two that touch. */
-export const BEADS = ["#0072b2", "#d55e00", "#009e73", "#e69f00", "#cc79a7", "#56b4e9", "#882255", "#999933"], TOUCH = "#ffffff";
+export const BEADS = ["#009e73", "#cc79a7", "#999933", "#56b4e9", "#e69f00", "#882255", "#ddcc77", "#44aa99"], TOUCH = "#ffffff";

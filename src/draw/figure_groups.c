@@ -32,8 +32,8 @@ typedef struct series {
 /* Other colours than those of the beads, which are four at most where pairs have curves. */
 static fst_colour colour_of_pair(const series *s, int pair)
 {
-    static const fst_colour colours[FEW_PAIRS] = {FST_COLOUR_BLACK, FST_COLOUR_PURPLE, FST_COLOUR_SKY,
-                                                  FST_COLOUR_WINE,  FST_COLOUR_OLIVE,  FST_COLOUR_TEAL};
+    static const fst_colour colours[FEW_PAIRS] = {FST_COLOUR_BLACK, FST_COLOUR_WINE,   FST_COLOUR_INDIGO,
+                                                  FST_COLOUR_ROSE,  FST_COLOUR_ORANGE, FST_COLOUR_TEAL};
     return s->pair_count > FEW_PAIRS ? FST_COLOUR_BLACK : colours[pair];
 }
 

@@ -17,9 +17,10 @@ const char *fst_colour_code(fst_colour colour)
 
 fst_colour fst_bead_colour(int bead)
 {
-    static const fst_colour colours[FST_BEADS_MOST] = {
-        FST_COLOUR_BLUE,   FST_COLOUR_VERMILION, FST_COLOUR_GREEN, FST_COLOUR_ORANGE,
-        FST_COLOUR_PURPLE, FST_COLOUR_SKY,       FST_COLOUR_WINE,  FST_COLOUR_OLIVE};
+    /* Vermilion and blue are the magnet's poles. */
+    static const fst_colour colours[FST_BEADS_MOST] = {FST_COLOUR_GREEN, FST_COLOUR_PURPLE, FST_COLOUR_OLIVE,
+                                                       FST_COLOUR_SKY,   FST_COLOUR_ORANGE, FST_COLOUR_WINE,
+                                                       FST_COLOUR_SAND,  FST_COLOUR_TEAL};
     return colours[bead % FST_BEADS_MOST];
 }
 

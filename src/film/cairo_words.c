@@ -102,7 +102,7 @@ void fst_pen_bead_key(cairo_t *pen, const fst_film_layout *layout, const fst_fil
     for (int i = 0; i < shown; ++i) {
         const double *colour = frame->beads[i].colour, x = right - 1.5 * size * (shown - i);
         char number[12];
-        (void)snprintf(number, sizeof number, "%d", i);
+        (void)snprintf(number, sizeof number, "%d", i + 1);
         cairo_arc(pen, x + 0.75 * size, 16.0 + 0.7 * size, 0.66 * size, 0.0, 2.0 * FST_PI);
         cairo_set_source_rgb(pen, colour[0], colour[1], colour[2]);
         cairo_fill(pen);

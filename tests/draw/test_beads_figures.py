@@ -120,7 +120,7 @@ class Beads(unittest.TestCase):
             angle = 2 * math.pi * last["drive_turns"] + math.atan2(last[f"nY_{bead}"], last[f"nX_{bead}"])
             self.assertLess(abs(math.remainder(math.atan2(y1 - y0, x1 - x0) - angle, 2 * math.pi)), 1e-3)
         self.assertEqual(len(curves["two beads meet"]), 1)
-        colours = [script.index(f"lw 2 lc rgb '{code}'") for code in ("#0072b2", "#d55e00", "#009e73")]
+        colours = [script.index(f"lw 2 lc rgb '{code}'") for code in ("#009e73", "#cc79a7", "#999933")]
         self.assertEqual(colours, sorted(colours))
 
     def gap(self, row, a, b):

@@ -15,7 +15,7 @@ from pictures import read_png, rows_of
 
 FESTOON, SOURCE = os.environ["FESTOON"], Path(os.environ["SOURCE_DIR"])
 SIZE, LENGTH, RADIUS = 240, 23.0, 2.5  # pixels; mm
-COLOURS = ((0, 114, 178), (213, 94, 0), (0, 158, 115))  # of beads 0, 1 and 2, as in figures
+COLOURS = ((0, 158, 115), (204, 121, 167), (153, 153, 51))  # of beads 1, 2 and 3, as in figures
 THREE = """
 drive: {frequency: 30 Hz}
 start: {spin: rest}
@@ -89,6 +89,15 @@ class Films(unittest.TestCase):
                 self.assertGreater(of_colour(pixels, colour, column, row, radius), 0.9, (turns, i))
                 for off in ((4, 0), (-4, 0), (0, 4), (0, -4)):
                     self.assertLess(of_colour(pixels, colour, column + off[0], row + off[1], radius), 0.8, (turns, i))
+
+    def test_beads_count_from_one(self):
+        """In the middle of the first disc of the key stands the stem of a 1, where a 0 is open."""
+        self.good("movie", self.trajectory(THREE), "-o", self.folder / "large", "--size", "960x960", "--from", "2.9", "--to",
+                  "3", "--fps", "1")
+        pixels, size = read_png(sorted((self.folder / "large").iterdir())[0])[2], 0.024 * 960
+        column, row = round(960 - 24 - 1.5 * size * 3 + 0.75 * size), round(16 + 0.7 * size)
+        self.assertLess(math.dist(pixels[row + round(0.5 * size)][column], COLOURS[0]), 60)  # below the figure
+        self.assertLess(min(math.dist(pixel, (255, 255, 255)) for pixel in pixels[row][column - 1:column + 3]), 60)
 
     def test_a_list_of_one_keeps_its_film(self):
         films = []
