@@ -114,9 +114,12 @@ export class Files {
                 throw new Told(T.bad.large);
             const text = await file.text();
             const trajectory = readTrajectory(text);
-            if (!trajectory && isMap(file.name, text)) {
-                const map = lab.takeMap(name, new Uint8Array(await file.arrayBuffer()));
-                this.openScene(name, this.sceneFor(map), T.mapTaken);
+            const map = !trajectory && isMap(file.name, text);
+            if (!map && text.includes("\0"))
+                throw new Told(T.bad.binary);
+            if (map) {
+                const taken = lab.takeMap(name, new Uint8Array(await file.arrayBuffer()));
+                this.openScene(name, this.sceneFor(taken), T.mapTaken);
             } else if (trajectory || SCENE.test(file.name)) {
                 this.openScene(name, trajectory?.scene ?? readScene(text), trajectory ? T.replayed : T.opened, trajectory);
             } else {

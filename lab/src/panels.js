@@ -7,7 +7,7 @@ import { COLUMN } from "./core.js";
 import { canDrag } from "./drag.js";
 import { factorTold } from "./pace.js";
 import { Plot, rangeOf, regimeColour } from "./plots.js";
-import { told, whole, write } from "./said.js";
+import { inUnits, told, whole, write } from "./said.js";
 import { PRESETS } from "./scenes.js";
 import { LANGUAGES, plainOf, say, shown, T } from "./texts.js";
 import { PALETTE, QUANTITIES } from "./trail.js";
@@ -448,7 +448,7 @@ export class Panels {
         const mm = 1e3 * result.scales.length_unit_m, hertz = 1 / (2 * Math.PI * result.scales.time_unit_s);
         this.result = result;
         $("regime").textContent = T.outcomes[result.outcome] ?? T.outcomes.undecided;
-        this.showWhy(told(result.sentence, "pieces"), result.reason && told(result.reason));
+        this.showWhy(told(result.sentence, "pieces"), result.reason && told(inUnits(result.reason, result.scales)));
         this.fill([
             ...result.beads.map((bead, i) => [say(T.bead, { n: i + 1 }), `${digits(bead.mean_r === null ? null : bead.mean_r * mm)} mm, ${digits(bead.mean_alpha_dot === null ? null : bead.mean_alpha_dot * hertz)} Hz`]),
             [T.rows.touching, result.contacts.filter(({ b }) => b !== null).map(({ a, b }) => `${a + 1}–${b + 1}`).join(", ") || "–"],
@@ -478,7 +478,7 @@ export class Panels {
             festoons,
         };
         $("regime").textContent = regimeSentence(result.regime, measures);
-        this.showWhy(result.reason && told(result.reason));
+        this.showWhy(result.reason && told(inUnits(result.reason, result.groups)));
         const circles = result.mean_alpha_dot === null ? null : result.mean_alpha_dot * hertz;
         const wave = result.scene["drive.waveform"] === "wave"; /* which has no axis to circle about */
         const rows = wave ? [] : [

@@ -43,6 +43,10 @@ export function told(text, table = "sentences") {
     return words === SAID.en ? plain : translated(plain, table, words) ?? english(plain);
 }
 
+/* Times and radii of a sentence, which the library says in the model's units, in those of the page. */
+export const inUnits = (text, { length_unit_m, time_unit_s }) => text.replace(/\b([tr]) = (\d[\d.]*(?:e[+-]?\d+)?)/g,
+    (all, name, value) => `${name} = ${Number((value * (name === "t" ? time_unit_s : 1e3 * length_unit_m)).toPrecision(4))} ${name === "t" ? "s" : "mm"}`);
+
 /* A sentence that stands alone: with a capital and its end. */
 export const whole = (text) => say(/[?？]\ue001?$/.test(text) ? "{text}" : T.sentence, { text: /^\ue000?[\w[\]]+[.:=]/.test(text) ? text : text.replace(/^\ue000?./u, (head) => head.toUpperCase()) });
 

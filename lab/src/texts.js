@@ -34,11 +34,11 @@ export class Told extends Error {}
 export const say = (text, values) => text.replace(/\{(\w+)\}/g, (all, name) => values[name]);
 
 /* Numbers in a text as the language writes them, with their signs and raised powers, and as the library, addresses and
- * files take them.  A comma before a digit can be nothing but a decimal sign, because the page writes no groups of digits;
- * wide digits are Chinese keyboards'. */
+ * files take them.  A comma before a digit can be nothing but a decimal sign, because the page writes no groups of digits: a
+ * number that has some stays as it is, and the library refuses it; wide digits are Chinese keyboards'. */
 const RAISED = { "^2": "²", "^3": "³" };
 export const shown = (plain) => String(plain).replace(/(?<=\d)\.(?=\d)/g, point).replace(/(?<=^|[\s([,]|\de)-(?=\.?\d)/g, "\u2212").replace(/\^[23](?!\d)/g, (power) => RAISED[power]);
 export const plainOf = (typed) => {
     const narrow = typed.replace(/[\uff0b-\uff5a]/g, (wide) => String.fromCharCode(wide.charCodeAt(0) - 0xfee0)).replace(/\u2212/g, "-").replace(/²/g, "^2").replace(/³/g, "^3").trim();
-    return point === "," ? narrow.replace(/,(?=\d)/g, ".") : narrow;
+    return point === "," && !/\.\d+,/.test(narrow) ? narrow.replace(/,(?=\d)/g, ".") : narrow;
 };

@@ -18,6 +18,7 @@ import { readTrajectory, recordingOf } from "../src/trajectory.js";
 import { readAddress, readScene, readTrack, takeGood, writeAddress, writeScene } from "../src/state.js";
 import { regimeSentence } from "../src/panels.js";
 import { LESSON, PRESETS } from "../src/scenes.js";
+import { inUnits, told } from "../src/said.js";
 import { LANGUAGES, languageOf, plainOf, SAID, say, shown, speak, T, TABLES } from "../src/texts.js";
 import { goldenHashes } from "./golden.mjs";
 import * as said from "./said.mjs";
@@ -270,7 +271,11 @@ const scripts = {
             assert.equal(plainOf("１０．７ Hz"), "10.7 Hz");
             speak("de");
             assert.equal(plainOf(" −2,5 "), "-2.5");
-            assert.equal(plainOf("1.000,5"), "1.000.5", "which the library refuses");
+            assert.equal(plainOf("1.000,5"), "1.000,5", "which the library refuses, as a number with a comma");
+            assert.equal(inUnits("it left at t = 3968.172764, after 2538.4 drive periods, at r = 10", { length_unit_m: 0.023, time_unit_s: 0.0032 }),
+                "it left at t = 12.7 s, after 2538.4 drive periods, at r = 230 mm");
+            assert.equal(told("the bead passed the plate's edge at t = 12.7 s, after 2538.4 drive periods, at r = 230 mm"),
+                "die Kugel überschritt den Plattenrand bei t = 12,7 s, nach 2538,4 Umdrehungen des Antriebs, bei r = 230 mm");
             assert.equal(say(T.sweepDone, { n: "{all}", all: 3 }), "{all} von 3 Punkten");
         } finally {
             speak("en");

@@ -79,11 +79,12 @@ const char *fst_unit_customary(fst_unit unit, int *power)
 static const struct {
     const char *found, *plain;
 } spellings[] = {
-    {"^2", "2"},         {"^-1", "-1"},     {"\xC2\xB2", "2"}, /* superscript two */
-    {"^3", "3"},         {"\xC2\xB3", "3"},                    /* superscript three */
-    {"\xC2\xB5", "u"},   {"\xCE\xBC", "u"},                    /* micro sign, Greek mu */
-    {"\xC2\xB0", "deg"},                                       /* degree sign */
-    {"\xC2\xB7", " "},   {"*", " "},        {".", " "},        /* products */
+    {"^2", "2"},         {"^-1", "-1"},       {"\xC2\xB2", "2"}, /* superscript two */
+    {"^3", "3"},         {"\xC2\xB3", "3"},                      /* superscript three */
+    {"\xC2\xB5", "u"},   {"\xCE\xBC", "u"},                      /* micro sign, Greek mu */
+    {"\xC2\xB0", "deg"},                                         /* degree sign */
+    {"\xC2\xB7", " "},   {"*", " "},          {".", " "},        /* products */
+    {"U/min", "1/min"},  {"tr/min", "1/min"},                    /* turns, in German and in French */
 };
 
 /* Bring a unit to the spelling of the table: "µm" to "um", "A.m^2" and "A*m²" to "A m2", runs of white space to

@@ -60,7 +60,21 @@ static void print_length(FILE *out, const char *name, double value, double error
                       value * m->scale_error, m->length_unit, 100.0 * m->scale_error);
 }
 
-static void print_measurement(FILE *out, const fst_measurement *m)
+/* Frames, and the clock on which all rates rest where no drive checks it. */
+static void print_frames(FILE *out, const fst_measurement *m, const arguments *given)
+{
+    (void)fprintf(out, "  %-24s %lld, of which %lld are lost; ", "frames", (long long)m->frames,
+                  (long long)m->lost);
+    if (isnan(m->fps))
+        (void)fputs("no clock\n", out);
+    else if (option_value(given, "drive"))
+        (void)fprintf(out, "%.6g a second\n", m->fps);
+    else
+        (void)fprintf(out, "all rates rest on the %.6g a second that %s (--drive checks them)\n", m->fps,
+                      option_value(given, "fps") ? "were given" : "the file's clock says");
+}
+
+static void print_measurement(FILE *out, const fst_measurement *m, const arguments *given)
 {
     print_length(out, "<r>", m->mean_r, m->mean_r_error, m);
     print_length(out, "delta r", m->std_r, m->std_r_error, m);
@@ -69,8 +83,7 @@ static void print_measurement(FILE *out, const fst_measurement *m)
     print_value(out, "drive, from the track", m->drive_from_track_hz, m->drive_from_track_hz_error, "Hz");
     print_value(out, "tilt of the camera", m->tilt_deg, m->tilt_deg_error, "degrees");
     (void)fprintf(out, "  %-24s %.6g, %.6g %s\n", "centre", m->centre[0], m->centre[1], m->length_unit);
-    (void)fprintf(out, "  %-24s %lld, of which %lld are lost; %.6g a second\n", "frames", (long long)m->frames,
-                  (long long)m->lost, m->fps);
+    print_frames(out, m, given);
     for (int i = 0; i < m->warning_count; ++i)
         (void)fprintf(out, "  warning: %s\n", m->warnings[i]);
 }
@@ -174,7 +187,7 @@ static void print_track(const job *j, int index)
         if (m->reasons[bead][0])
             (void)fprintf(j->out, "  not measured: %s\n", m->reasons[bead]);
         else
-            print_measurement(j->out, &m->beads[bead]);
+            print_measurement(j->out, &m->beads[bead], j->given);
     }
     for (int i = 0; i < m->pair_count; ++i)
         print_pair(j->out, &m->pairs[i], m->beads[0].length_unit);

@@ -42,7 +42,7 @@ static fst_status refuse_others(const arguments *given, const char *words, const
         const char *name = given->options[i].row->name;
         char wanted[32], all[160];
         (void)snprintf(wanted, sizeof wanted, "|%s|", name);
-        (void)snprintf(all, sizeof all, "|output|title|size|%s|", words);
+        (void)snprintf(all, sizeof all, "|output|title|size|quiet|%s|", words);
         if (strstr(all, wanted))
             continue;
         size_t used = 0;

@@ -41,7 +41,7 @@ fst_status fit_film_take(fit_film *f, const fst_track *track, const fst_measurem
         return fst_fail(error, FST_NO_MEMORY, "fst_fit", "out of memory");
     (void)snprintf(one, sizeof one, "1 %s", track->length_unit);
     if (fst_parse_value(one, FST_UNIT_LENGTH, &unit, NULL) != FST_OK)
-        return fst_fail(error, FST_BAD_INPUT, "fst_track.length_unit",
+        return fst_fail(error, FST_BAD_INPUT, "fst_track_options.scale",
                         "the track is in pixels: say how long one of them is");
     for (size_t i = 0; i < track->rows; ++i) {
         if (track->flag[i] != FST_FRAME_SEEN || track->frame[i] - track->frame[0] < seen->left_out)

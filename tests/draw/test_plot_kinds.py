@@ -67,7 +67,7 @@ class Case(unittest.TestCase):
 
     def plot(self, name, *words):
         """The texts of the figure in one line, its script, and its blocks of numbers."""
-        good("plot", self.folder / name, "-o", self.folder / "f.svg", *words)
+        good("plot", "--quiet", self.folder / name, "-o", self.folder / "f.svg", *words)
         script = (self.folder / "f.gp").read_text(encoding="utf-8")
         blocks = {}
         for text in (self.folder / "f.dat").read_text(encoding="utf-8").split("\n\n\n"):

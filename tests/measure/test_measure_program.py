@@ -103,10 +103,23 @@ class Points(Program):
         self.assertEqual((plain["length_unit"], scaled["length_unit"]), ("px", "px"))
         self.assertAlmostEqual(scaled["mean_r"] / plain["mean_r"], 2.5, 6)
 
+    def test_the_clock(self):
+        """What all rates rest on is said where no drive checks it; nothing is called nan."""
+        track = self.write("track.csv", tracks.own(tracks.places(drive=12.8)))
+        bare = self.write("bare.csv", re.sub(r"(?m)^([^,]*),[^,]*,", r"\1,", tracks.own(tracks.places(drive=12.8))))
+        for path, options, words in ((track, (), "all rates rest on the 240 a second that the file's clock says"),
+                                     (track, ("--fps", "30"), "all rates rest on the 30 a second that were given"),
+                                     (track, ("--drive", "12.8Hz"), "lost; 240 a second\n"), (bare, (), "lost; no clock\n")):
+            out = self.festoon("measure", path, *options).stdout
+            self.assertIn(words, out)
+            self.assertNotIn("nan", out)
+
     def test_refusals(self):
         pixels = self.write("px.csv", tracks.own(tracks.places()))
         out = self.path("points.csv")
         self.assertIn("--scale", self.festoon("measure", pixels, "-o", out, status=2).stderr)
+        self.assertIn("--scale: the track is in pixels",
+                      self.festoon("fit", "--track", pixels, "--free", "model.kappa", status=2).stderr)
         self.assertIn(".csv", self.festoon("measure", pixels, "-o", self.path("a.txt"), status=2).stderr)
         self.assertIn("--drive", self.festoon("measure", pixels, "--drive", "1Hz,2Hz", status=2).stderr)
         self.assertIn("--figure", self.festoon("measure", pixels, "--compare", "a.yaml", status=2).stderr)

@@ -69,6 +69,8 @@ static void units_are_read(void **state)
         {"642 rpm", FST_UNIT_FREQUENCY, 10.7},
         {"642 RPM", FST_UNIT_FREQUENCY, 10.7},
         {"642 1/min", FST_UNIT_FREQUENCY, 10.7},
+        {"642 U/min", FST_UNIT_FREQUENCY, 10.7},
+        {"642 tr/min", FST_UNIT_FREQUENCY, 10.7},
         {"10 hz", FST_UNIT_FREQUENCY, 10},
         {"2 KHZ", FST_UNIT_FREQUENCY, 2000},
         {"0.0107 kHz", FST_UNIT_FREQUENCY, 10.7},

@@ -63,7 +63,7 @@ export default {
     replayed: "{name} wird so abgespielt, wie es aufgezeichnet wurde. Wer eine Größe ändert, lässt die Bewegung neu berechnen.",
     bad: {
         missing: "die Trajektorie hat keine Spalte {name} in einer hier bekannten Einheit", cell: "Zeile {line}: {name} muss eine Zahl sein", time: "Zeile {line}: die Zeit muss von Zeile zu Zeile wachsen",
-        large: "die Datei ist größer als 60 MB", film: "das ist ein Film; festoon track macht daraus eine Messspur", twice: "Zeile {line}: {key} steht zweimal da", row: "Zeile {line}: erwartet wird „Schlüssel: Wert“, wie festoon init es schreibt",
+        large: "die Datei ist größer als 60 MB", film: "das ist ein Film; festoon track macht daraus eine Messspur", binary: "das ist kein Text: Hier werden Szenen, Tabellen (CSV) und Karten von Feldern geöffnet", twice: "Zeile {line}: {key} steht zweimal da", row: "Zeile {line}: erwartet wird „Schlüssel: Wert“, wie festoon init es schreibt",
         columns: "Zeile {line}: erwartet werden Spalten mit den Namen x und y, zum Beispiel: frame,t [s],x [mm],y [mm]", unit: "Zeile {line}: „{unit}“ muss mm, cm, m oder px sein",
         number: "Zeile {line}: x und y müssen Zahlen unter {most} sein", few: "eine Messspur braucht mindestens drei Orte", same: "alle Orte der Messspur sind gleich",
     },

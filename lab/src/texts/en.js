@@ -64,7 +64,7 @@ export default {
     replayed: "{name} is played as it was recorded. A change of a parameter computes the motion anew.",
     bad: {
         missing: "the trajectory has no column {name} in a unit that is known here", cell: "line {line}: {name} must be a number", time: "line {line}: the time must grow from line to line",
-        large: "the file is larger than 60 MB", film: "this is a film; festoon track makes a track of it", twice: "line {line}: {key} is given twice", row: "line {line}: expected \"key: value\", as festoon init writes it",
+        large: "the file is larger than 60 MB", film: "this is a film; festoon track makes a track of it", binary: "this is not text: scenes, tables (CSV) and measured fields open here", twice: "line {line}: {key} is given twice", row: "line {line}: expected \"key: value\", as festoon init writes it",
         columns: "line {line}: expected columns named x and y, as in: frame,t [s],x [mm],y [mm]", unit: "line {line}: \"{unit}\" must be mm, cm, m or px",
         number: "line {line}: x and y must be numbers below {most}", few: "a track needs three places at least", same: "all places of the track are the same",
     },

@@ -63,7 +63,7 @@ export default {
     replayed: "{name} se reproduce tal como se grabó. Si cambias un parámetro, el movimiento se calcula de nuevo.",
     bad: {
         missing: "la trayectoria no tiene una columna {name} en una unidad conocida aquí", cell: "línea {line}: {name} debe ser un número", time: "línea {line}: el tiempo debe crecer de una línea a otra",
-        large: "el archivo ocupa más de 60 MB", film: "esto es un vídeo; festoon track obtiene de él una trayectoria", twice: "línea {line}: {key} aparece dos veces", row: "línea {line}: se esperaba «clave: valor», como lo escribe festoon init",
+        large: "el archivo ocupa más de 60 MB", film: "esto es un vídeo; festoon track obtiene de él una trayectoria", binary: "esto no es texto: aquí se abren escenas, tablas (CSV) y campos medidos", twice: "línea {line}: {key} aparece dos veces", row: "línea {line}: se esperaba «clave: valor», como lo escribe festoon init",
         columns: "línea {line}: se esperaban columnas con los nombres x e y, como en: frame,t [s],x [mm],y [mm]", unit: "línea {line}: «{unit}» debe ser mm, cm, m o px",
         number: "línea {line}: x e y deben ser números menores que {most}", few: "una trayectoria necesita al menos tres puntos", same: "todos los puntos de la trayectoria son iguales",
     },

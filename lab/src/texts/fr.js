@@ -67,7 +67,7 @@ export default typeset({
     replayed: "{name} est rejoué tel qu’il a été enregistré. Si vous changez un paramètre, le mouvement est recalculé.",
     bad: {
         missing: "la trajectoire n’a pas de colonne {name} dans une unité connue ici", cell: "ligne {line} : {name} doit être un nombre", time: "ligne {line} : le temps doit croître d’une ligne à l’autre",
-        large: "le fichier dépasse 60 Mo", film: "c’est un film ; festoon track en tire une trajectoire", twice: "ligne {line} : {key} est donné deux fois", row: "ligne {line} : il faut « clé: valeur », comme l’écrit festoon init",
+        large: "le fichier dépasse 60 Mo", film: "c’est un film ; festoon track en tire une trajectoire", binary: "ce n’est pas du texte : ici s’ouvrent des scènes, des tableaux (CSV) et des champs mesurés", twice: "ligne {line} : {key} est donné deux fois", row: "ligne {line} : il faut « clé: valeur », comme l’écrit festoon init",
         columns: "ligne {line} : il faut des colonnes nommées x et y, comme dans : frame,t [s],x [mm],y [mm]", unit: "ligne {line} : « {unit} » doit être mm, cm, m ou px",
         number: "ligne {line} : x et y doivent être des nombres inférieurs à {most}", few: "une trajectoire doit avoir au moins trois points", same: "tous les points de la trajectoire sont les mêmes",
     },

@@ -63,7 +63,7 @@ export default {
     replayed: "正在按记录播放 {name}。改变任何参数都会重新计算运动。",
     bad: {
         missing: "轨迹文件中没有以已知单位给出的 {name} 列", cell: "第 {line} 行：{name} 必须是数", time: "第 {line} 行：时间必须逐行增大",
-        large: "文件大于 60 MB", film: "这是视频；请用 festoon track 从中得到轨迹", twice: "第 {line} 行：{key} 出现了两次", row: "第 {line} 行：应为“键: 值”，如 festoon init 所写",
+        large: "文件大于 60 MB", film: "这是视频；请用 festoon track 从中得到轨迹", binary: "这不是文本：此处可打开场景、表格（CSV）和实测磁场", twice: "第 {line} 行：{key} 出现了两次", row: "第 {line} 行：应为“键: 值”，如 festoon init 所写",
         columns: "第 {line} 行：应有名为 x 和 y 的列，例如：frame,t [s],x [mm],y [mm]", unit: "第 {line} 行：“{unit}”必须是 mm、cm、m 或 px",
         number: "第 {line} 行：x 和 y 必须是小于 {most} 的数", few: "轨迹至少需要三个位置", same: "轨迹的所有位置都相同",
     },

@@ -6,7 +6,7 @@ export default {
         noNumber: "„{text}“ ist keine Dezimalzahl",
         tooLarge: "„{text}“ ist zu groß für eine Zahl",
         comma: "„{text}“ hat ein Dezimalkomma: Hier gilt „{better}“ mit Punkt",
-        commas: "„{text}“ hat ein Komma in der Zahl: Dezimalstellen trennt ein Punkt, Tausender nichts, wie in {example}",
+        commas: "„{text}“ hat mehr als ein Trennzeichen in der Zahl: Zwischen Tausendern steht nichts, wie in {example}",
         unknownUnit: "„{text}“ hat die unbekannte Einheit „{unit}“",
         nearUnit: "„{text}“ hat die unbekannte Einheit „{unit}“; am ähnlichsten ist {near}",
         noUnit: "„{text}“ hat die Einheit „{unit}“, aber dieser Wert ist eine Zahl ohne Einheit",

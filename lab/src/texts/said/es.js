@@ -6,7 +6,7 @@ export default {
         noNumber: "«{text}» no es un número decimal",
         tooLarge: "«{text}» es demasiado grande para un número",
         comma: "«{text}» tiene una coma decimal: hay que escribir «{better}», con punto",
-        commas: "«{text}» tiene una coma en el número: hay que escribir un punto decimal, y nada entre los millares, como en {example}",
+        commas: "«{text}» tiene más de un separador en el número: no se escribe nada entre los millares, como en {example}",
         unknownUnit: "«{text}» tiene la unidad desconocida «{unit}»",
         nearUnit: "«{text}» tiene la unidad desconocida «{unit}»; la más parecida es {near}",
         noUnit: "«{text}» tiene la unidad «{unit}», pero este valor es un número sin unidad",

@@ -6,7 +6,7 @@ export default {
         noNumber: "« {text} » n’est pas un nombre décimal",
         tooLarge: "« {text} » est trop grand pour un nombre",
         comma: "« {text} » a une virgule décimale : il faut écrire « {better} », avec un point",
-        commas: "« {text} » a une virgule dans le nombre : il faut un point décimal, et rien entre les milliers, comme dans {example}",
+        commas: "« {text} » a plus d’un séparateur dans le nombre : il ne faut rien entre les milliers, comme dans {example}",
         unknownUnit: "« {text} » a l’unité inconnue « {unit} »",
         nearUnit: "« {text} » a l’unité inconnue « {unit} » ; la plus proche est {near}",
         noUnit: "« {text} » a l’unité « {unit} », mais cette valeur est un nombre sans unité",
