@@ -483,6 +483,7 @@ const tests = {
         await picture(page, "wide-track");
         const before = await state();
         assert.match((await drop("bead.webm", "x"))[0], /^bead\.webm: this is a film; festoon track/);
+        assert.match((await drop("bead.png", "\x89PNG\r\n\0\0\0"))[0], /^bead\.png: this is not text: scenes, tables/);
         const bad = "<img src=x onerror=\"document.title='hit'\">";
         for (const [name, text] of [[`${bad}.yaml`, `drive:\n  ${bad}: 3\n`], ["x.yaml", `drive:\n  frequency: ${bad}\n`], [`${bad}.csv`, `x [${bad}],y\n1,2\n`]]) {
             const [notice, children] = await drop(name, text);
