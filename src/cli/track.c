@@ -18,8 +18,7 @@ static const option options[] = {
     {"scale", '\0', "SCALE",
      "\"bead 5 mm\", \"plate 460 mm\", \"X1,Y1:X2,Y2=50mm\", or four corners \"...=80x60mm\"; \"A; B\": "
      "A, compared with B"},
-    {"fps", '\0', "F",
-     "frames a second, instead of those of the film's clock or a phone's slow motion; images need it"},
+    {"fps", '\0', "F", "frames a second, whatever the film says; a folder of images needs it"},
     {"distance", '\0', "LENGTH", "from the camera to the plate: allows for the bead's height above it"},
     {"turning", '\0', "DIAMETER",
      "how a bead with marks turns: adds columns for n, W and the slip; its diameter, as 5mm, by callipers"},
