@@ -18,12 +18,11 @@ static const option options[] = {
     {"scale", '\0', "SCALE",
      "\"bead 5 mm\", \"plate 460 mm\", \"X1,Y1:X2,Y2=50mm\", or four corners \"...=80x60mm\"; \"A; B\": "
      "A, compared with B"},
-    {"fps", '\0', "F", "frames a second, whatever the film says; a folder of images needs it"},
+    {"fps", '\0', "F", "frames a second, whatever the film says; images need it"},
     {"distance", '\0', "LENGTH", "from the camera to the plate: allows for the bead's height above it"},
     {"turning", '\0', "DIAMETER",
      "how a bead with marks turns: adds columns for n, W and the slip; its diameter, as 5mm, by callipers"},
-    {"overlay", '\0', "FILM.mp4",
-     "a film (mp4, mov) that shows what was found, slowed down to 30 frames a second"},
+    {"overlay", '\0', "FILM.mp4", "a film (mp4, mov) of what was found, at 30 frames a second"},
     {"figure", '\0', "FIG.png", "one picture to check by eye: the path, the plate's edge, and beads enlarged"},
     {NULL, '\0', NULL, NULL},
 };
