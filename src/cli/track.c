@@ -22,7 +22,7 @@ static const option options[] = {
     {"distance", '\0', "LENGTH", "from the camera to the plate: allows for the bead's height above it"},
     {"turning", '\0', "DIAMETER",
      "how a bead with marks turns: adds columns for n, W and the slip; its diameter, as 5mm, by callipers"},
-    {"overlay", '\0', "FILM.mp4", "a film (mp4, mov) of what was found, at 30 frames a second"},
+    {"overlay", '\0', "FILM.mp4", "a slow film (mp4, mov) of what was found"},
     {"figure", '\0', "FIG.png", "one picture to check by eye: the path, the plate's edge, and beads enlarged"},
     {NULL, '\0', NULL, NULL},
 };
