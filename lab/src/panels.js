@@ -472,7 +472,8 @@ export class Panels {
         const ratio = result.mean_alpha_dot ? Math.abs(result.omega / result.mean_alpha_dot) : null;
         /* Where the symmetry is not known, there are N festoons or 2 N. */
         const unknown = result.festoons === null && result.regime.endsWith("rotating") && ratio !== null;
-        const festoons = unknown ? `${digits(1 + ratio, 3)} ${T.or} ${digits(2 * (1 + ratio), 3)}` : result.festoons === null ? null : digits(result.festoons, 3);
+        const single = Math.abs(1 - result.omega / result.mean_alpha_dot);
+        const festoons = unknown ? `${digits(single, 3)} ${T.or} ${digits(2 * single, 3)}` : result.festoons === null ? null : digits(result.festoons, 3);
         const measures = {
             r: digits(result.mean_r === null ? null : result.mean_r * mm), turns: digits(ratio, 3), free: result.scene["friction.law"] === "none", oneOff: result.scene["drive.waveform"] !== "steady",
             festoons,

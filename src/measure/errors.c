@@ -20,6 +20,7 @@
 #include "base/constants.h"
 #include "base/dot.h"
 #include "base/error.h"
+#include "base/festoons.h"
 
 enum { LEAST_TURNS = 3, MANY_TURNS = 8, DRAWS = 800 };
 
@@ -351,7 +352,7 @@ static void take_rates(const measure_work *work, const measure_drive *drive, con
     }
     if (drive->motion != FST_MOTION_TURNING || drive->folded)
         return;
-    /* f_drive = f0 + f_bead (with its sign against the magnet); N = a (1 + f_drive/|f_bead|). */
+    /* f_drive = f0 + f_bead (with its sign against the magnet); N = a |1 - f_drive/f_bead|. */
     const double a = drive->symmetry, sign = drive->relative, magnet = work->f0 + sign * bead;
     const double turning = sign * (work->bead > 0 ? 1.0 : -1.0); /* covariance is with the filmed sense */
     const double joint = covariance * turning;
@@ -359,13 +360,14 @@ static void take_rates(const measure_work *work, const measure_drive *drive, con
     measured->radial_frequency_hz_error = a * sqrt(variance[F0]);
     measured->drive_from_track_hz = magnet;
     measured->drive_from_track_hz_error = error_of(variance[F0] + variance[BEAD] + 2.0 * joint);
-    measured->festoons = a * (1.0 + magnet / bead);
+    measured->festoons = fst_festoons_a_lap(drive->symmetry, magnet, sign * bead);
     const double by_f0 = a / bead, by_bead = -sign * a * work->f0 / (bead * bead); /* by sign*bead */
     measured->festoons_error = error_of(by_f0 * by_f0 * variance[F0] + by_bead * by_bead * variance[BEAD] +
                                         2.0 * by_f0 * by_bead * joint);
-    /* Without a clock of its own the film gives ratios alone: f_bead = f_drive/(N/a - 1). */
+    /* Without a clock of its own the film gives ratios alone: |f_bead| = f_drive/(N/a + sign). */
     if (drive->clock_follows) {
-        measured->bead_frequency_hz_error = bead * measured->festoons_error / fabs(measured->festoons - a);
+        measured->bead_frequency_hz_error =
+            bead * measured->festoons_error / fabs(measured->festoons + sign * a);
         measured->radial_frequency_hz_error = a * measured->bead_frequency_hz_error;
     }
 }

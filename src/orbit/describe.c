@@ -30,6 +30,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "base/festoons.h"
 #include "observe/means.h"
 #include "ode/flight.h"
 #include "study/conclude.h"
@@ -193,7 +194,7 @@ static void conclude(const round_trip *trip, const fst_solution *s, fst_descript
                     : means->mean_alpha_dot < 0 ? FST_REGIME_COUNTER_ROTATING
                                                 : FST_REGIME_COROTATING;
     if (out->turns)
-        means->festoons = (s->symmetric ? 2.0 : 1.0) * (1.0 + omega / fabs(means->mean_alpha_dot));
+        means->festoons = fst_festoons_a_lap(s->symmetric ? 2 : 1, omega, means->mean_alpha_dot);
     out->swing_ratio = out->turns == 0                                 ? NAN
                        : s->symmetric && trip->extremes_met.count == 4 ? 0.0
                                                                        : swing_ratio(&trip->extremes_met);

@@ -1,8 +1,8 @@
 /* festoons.c - the patterns that close in the laboratory after a given number of festoons.
  *
  * A counter-rotating orbit of whole period T turns Phi once backwards, so <alpha'> = omega - 2 pi/T.  While the
- * bead goes once round in the laboratory, 1 + omega/|<alpha'>| periods pass; each makes a festoons, a = 2 for a
- * symmetric orbit (S2) and 1 for another (S1), so N = a (1 + omega/|<alpha'>|).  It is known at every point of
+ * bead goes once round in the laboratory, |1 - omega/<alpha'>| periods pass; each makes a festoons, a = 2 for a
+ * symmetric orbit (S2) and 1 for another (S1), so N = a |1 - omega/<alpha'>|.  It is known at every point of
  * the counter-rotating branch over omega, and a wanted N is looked for between neighbouring points:
  *
  *       N |                 x  x        x: points of the branch
@@ -29,13 +29,14 @@
 #include "base/bracket.h"
 #include "base/constants.h"
 #include "base/error.h"
+#include "base/festoons.h"
 #include "base/grow.h"
 
 /* N of a counter-rotating orbit from its whole period alone. */
 static double festoons_at(double omega, double period, int symmetric)
 {
     const double alpha_dot = omega - FST_TWO_PI / period;
-    return (symmetric ? 2.0 : 1.0) * (1.0 + omega / fabs(alpha_dot));
+    return fst_festoons_a_lap(symmetric ? 2 : 1, omega, alpha_dot);
 }
 
 static double festoons_of(const fst_solution *s)

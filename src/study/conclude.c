@@ -7,6 +7,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "base/festoons.h"
 #include "base/listed.h"
 #include "study/regime.h"
 #include "study/settle.h"
@@ -105,7 +106,7 @@ static void fill_turning(const fst_watched_run *run, fst_run_result *result)
 {
     if (result->regime != FST_REGIME_COUNTER_ROTATING && result->regime != FST_REGIME_COROTATING)
         return;
-    const double single = 1.0 + result->omega / fabs(result->mean_alpha_dot);
+    const double single = fst_festoons_a_lap(1, result->omega, result->mean_alpha_dot);
     const size_t told = strlen(result->reason);
     result->period = fst_drive_period_double(fabs(result->omega - result->mean_alpha_dot));
     if (result->symmetry != FST_SYMMETRY_NONE || !run->model->has_s2)

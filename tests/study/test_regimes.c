@@ -393,6 +393,65 @@ static void test_festoons_of_a_known_symmetry(void **unused)
         fail_msg("\"%s\" lacks \"%s\"", first, both);
 }
 
+/* Maxima of r beyond `above`, and the angles alpha at the first and the last of them. */
+typedef struct counted {
+    double above, r[2], alpha, first, last;
+    int samples, maxima;
+} counted;
+
+static fst_status count_maxima(void *user, const fst_sample *sample, fst_error *error)
+{
+    counted *c = user;
+    const double r = hypot(sample->x, sample->y);
+    (void)error;
+    if (c->samples > 1 && c->r[1] > c->above && c->r[1] > c->r[0] && c->r[1] >= r) {
+        c->first = c->maxima++ ? c->first : c->alpha;
+        c->last = c->alpha;
+    }
+    c->r[0] = c->r[1];
+    c->r[1] = r;
+    c->alpha = sample->alpha;
+    ++c->samples;
+    return FST_OK;
+}
+
+/* In either sense and either symmetry a bead draws as many festoons a lap as r has maxima. */
+static void test_festoons_are_counted(void **unused)
+{
+    (void)unused;
+    static const struct {
+        double depth, hertz;
+        int own;
+        double above; /* l; of the two maxima of a swing one is higher */
+        fst_regime regime;
+        fst_symmetry symmetry;
+    } runs[] = {{8.0, 9.0, 0, 0.0, FST_REGIME_COROTATING, FST_SYMMETRY_S2},
+                {10.0, 11.0, 1, 1.15, FST_REGIME_COROTATING, FST_SYMMETRY_S1},
+                {16.2, 19.9, 0, 0.0, FST_REGIME_COUNTER_ROTATING, FST_SYMMETRY_S2},
+                {16.2, 10.7, 0, 0.0, FST_REGIME_COUNTER_ROTATING, FST_SYMMETRY_S1}};
+    for (size_t i = 0; i < sizeof runs / sizeof *runs; ++i) {
+        fst_params p = fst_default_params();
+        fst_run_options options = fst_default_run_options();
+        fst_run_result r;
+        counted c = {.above = runs[i].above};
+        if (runs[i].own) {
+            p.bead_radius = 3.1e-3;
+            p.bead_mass = 0.9e-3;
+            p.model_kappa = 1.1;
+        }
+        p.magnet_depth = 1e-3 * runs[i].depth;
+        p.drive_frequency = runs[i].hertz;
+        options.sink.user = &c;
+        options.sink.sample = count_maxima;
+        options.sample_from = p.run_discard;
+        assert_int_equal(fst_run(&p, &options, &r, NULL), FST_OK);
+        expect_regime(&r, runs[i].regime);
+        assert_int_equal(r.symmetry, runs[i].symmetry);
+        assert_true(c.maxima > 50);
+        CHECK_CLOSE(fabs(r.festoons * (c.last - c.first) / (8.0 * atan(1.0))), c.maxima - 1, 0.1);
+    }
+}
+
 /* Beyond the end of its branch at 168.58 Hz counter-rotation lingers for thousands of turns, in ever wider
  * circles. */
 static void test_slowly_lost(void **unused)
@@ -486,6 +545,7 @@ int main(void)
         cmocka_unit_test(test_balanced_on_the_axis),
         cmocka_unit_test(test_near_the_period_halving),
         cmocka_unit_test(test_festoons_of_a_known_symmetry),
+        cmocka_unit_test(test_festoons_are_counted),
         cmocka_unit_test(test_slowly_lost),
         cmocka_unit_test(test_leaving_a_locked_state),
     };
