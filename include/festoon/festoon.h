@@ -297,6 +297,10 @@ FST_API fst_status fst_params_of_bead(const fst_params *params, int bead, fst_pa
  * with lines and a moment of the bead; model.kappa and the moment do beside a real magnet. */
 FST_API int fst_params_clash(const fst_params *params, const char *one, const char *two);
 
+/* Whether `after`, made of `before` by giving another key, has lost what was given for this one: model.kappa, magnet.b0 or
+ * the bead's moment, of which the last given count.  0 for any other key. */
+FST_API int fst_params_takes_back(const fst_params *before, const fst_params *after, const char *key);
+
 /* The drive periods that a run leaves out of its means: run.discard; but the first half of a run that is no
  * longer than run.discard, or that run.duration measures, where that has its default of 200. */
 FST_API double fst_run_discard(const fst_params *params);

@@ -57,9 +57,11 @@ FST_API double fst_grid_value(const fst_grid *grid, int axis, int64_t point);
 FST_API fst_status fst_grid_params(const fst_grid *grid, int64_t point, fst_params *params, fst_error *error);
 
 /* What a grid can hardly mean: 0, or 1 with a sentence.  Beads of no material, and parts that overlap only where they
- * are varied, for which up to 256 points are looked at; axes along which nothing or only units change (fst_params_changes()). */
+ * are varied, for which up to 256 points are looked at; axes along which nothing or only units change (fst_params_changes());
+ * axes that take back what the scene gives (fst_params_takes_back()). */
 FST_API int fst_grid_contradiction(const fst_grid *grid, char *sentence, size_t size);
 FST_API int fst_grid_idle_axes(const fst_grid *grid, char *sentence, size_t size);
+FST_API int fst_grid_followers(const fst_grid *grid, char *sentence, size_t size);
 
 /* ------------------------------------------------------------------ rows: many runs at once */
 

@@ -92,6 +92,8 @@ def _warn(grid: Any, levitation: bool) -> None:
         warn(text_of(sentence), MaterialWarning)
     if not levitation and lib.fst_grid_idle_axes(grid, sentence, 512):
         warn(f"{text_of(sentence)} (Bead.groups has them)", SceneWarning)
+    if lib.fst_grid_followers(grid, sentence, 512):
+        warn(text_of(sentence), SceneWarning)
 
 
 def _refining(levels: int, by: Optional[str], step: float) -> Tuple[int, Optional[str], float]:

@@ -40,6 +40,7 @@ static fst_status apply_sets(const arguments *given, fst_params *params, fst_err
     for (int i = 0; i < given->option_count && status == FST_OK; ++i) {
         if (strcmp(given->options[i].row->name, "set") != 0)
             continue;
+        const fst_params before = *params;
         status = apply_set(given->options[i].value, params, error);
         for (int k = 0; k < i && status == FST_OK; ++k) {
             key_text one, two;
@@ -47,11 +48,13 @@ static fst_status apply_sets(const arguments *given, fst_params *params, fst_err
                 continue;
             key_of(given->options[k].value, one);
             key_of(given->options[i].value, two);
-            if (strcmp(one, "model.kappa") != 0 && strcmp(two, "model.kappa") != 0 &&
-                fst_params_clash(params, one, two))
+            const int of_kappa = fst_params_takes_back(&before, params, one);
+            if (of_kappa || (strcmp(one, "model.kappa") != 0 && strcmp(two, "model.kappa") != 0 &&
+                             fst_params_clash(params, one, two)))
                 (void)fprintf(
-                    stderr, "festoon: warning: --set: %s and %s give the same quantity: the last counts, %s\n",
-                    one, two, two);
+                    stderr,
+                    "festoon: warning: --set: %s and %s give the same quantity%s: the last counts, %s\n", one,
+                    two, of_kappa ? " (with the bead's moment magnet.b0 gives kappa)" : "", two);
         }
     }
     return status;

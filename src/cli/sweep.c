@@ -125,6 +125,7 @@ typedef struct display {
     fst_sweep_counts counts; /* the library keeps them up to date */
     char material[512];      /* why a bead cannot be made of any material; "": each can */
     char idle[512];          /* which keys are varied in vain; "": none */
+    char follows[160];       /* which given key does not count beside a varied one; "": none */
     int can_draw;            /* it varies so few parameters that festoon plot shows it */
 } display;
 
@@ -135,8 +136,9 @@ static void warn_once(display *shown, int rank)
         (void)fprintf(stderr, "festoon: warning: %s\n", shown->material);
     if (shown->idle[0] && rank == 0)
         (void)fprintf(stderr, "festoon: %s\n", shown->idle);
-    shown->material[0] = '\0';
-    shown->idle[0] = '\0';
+    if (shown->follows[0] && rank == 0)
+        (void)fprintf(stderr, "festoon: warning: %s\n", shown->follows);
+    shown->material[0] = shown->idle[0] = shown->follows[0] = '\0';
 }
 
 /* Look over the grid: for a contradiction, of which one warning is enough, and whether a figure can show it. */
@@ -152,6 +154,7 @@ static fst_status look_over(display *shown, const fst_params *params, const fst_
         shown->material[0] = '\0';
     if (!sweep->levitation)
         (void)fst_grid_idle_axes(grid, shown->idle, sizeof shown->idle);
+    (void)fst_grid_followers(grid, shown->follows, sizeof shown->follows);
     shown->can_draw = params->bead_count == 0;
     for (int a = 0; a < fst_grid_axis_count(grid); ++a)
         if (fst_grid_axis_points(grid, a) > 1) {

@@ -150,6 +150,15 @@ int fst_params_clash(const fst_params *params, const char *key, const char *othe
     return first < FORMS && second < FORMS && tell_the_same(params, first, second);
 }
 
+int fst_params_takes_back(const fst_params *before, const fst_params *after, const char *key)
+{
+    const int form = form_of(key);
+    if (form == KAPPA)
+        return fst_kappa_given(before) && !fst_kappa_given(after);
+    return (form == B0 || form == REMANENCE || form == MOMENT) && !isnan(value_of(before, form)) &&
+           isnan(value_of(after, form));
+}
+
 /* ------------------------------------------------------------------ giving a form */
 
 /* kappa was given, or the moment or B0 from which it may follow. */

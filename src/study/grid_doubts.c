@@ -86,3 +86,20 @@ int fst_grid_idle_axes(const fst_grid *grid, char *sentence, size_t size)
         (void)snprintf(sentence, size, "%s%s%s", told[0], told[0][0] && told[1][0] ? "; " : "", told[1]);
     return told[0][0] || told[1][0];
 }
+
+int fst_grid_followers(const fst_grid *grid, char *sentence, size_t size)
+{
+    static const char *const keys[] = {"model.kappa", "bead.remanence", "bead.moment", "magnet.b0"};
+    const fst_params *base = fst_grid_base(grid);
+    for (int a = 0; a < fst_grid_axis_count(grid); ++a)
+        for (size_t k = 0; k < sizeof keys / sizeof *keys; ++k) {
+            fst_params params;
+            if (fst_grid_params(grid, 0, &params, NULL) != FST_OK ||
+                strcmp(fst_grid_key(grid, a), keys[k]) == 0 || !fst_params_takes_back(base, &params, keys[k]))
+                continue;
+            (void)snprintf(sentence, size, "%s is varied, so that %s follows: the given one does not count",
+                           fst_grid_key(grid, a), keys[k]);
+            return 1;
+        }
+    return 0;
+}

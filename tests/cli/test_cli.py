@@ -311,6 +311,21 @@ class Scenes(Case):
                 values = [max(0.01, keys.get(name, {}).get("min") or 0) for name in (one, two)]
                 told = festoon("check", "--set", f"{one}={values[0]}", "--set", f" {two} ={values[1]}")[2]
                 self.assertIn(f"{one} and {two} give the same quantity: the last counts, {two}", told)
+        # kappa follows from the moment and B0: which of the three is given last counts, and what it drops is told.
+        kappa, moment, field = "model.kappa=2", "bead.moment=0.01", "magnet.b0=10mT"
+        block = [f"--set=magnet.parts[0].{key}" for key in ("kind=dipole", "moment=0,0,1")]
+        for before, sets, dropped in (([], (moment, field, kappa), "magnet.b0 and model.kappa"), ([], (kappa, moment, field), "model.kappa and magnet.b0"),
+                                      ([], (kappa, field, moment), "model.kappa and bead.moment"), ([], (field, kappa, moment), None),
+                                      ([], (kappa, moment), None), ([], (moment, kappa), None), ([], (kappa, field), None),
+                                      (block, (moment, kappa), "bead.moment and model.kappa"), (block, (kappa, moment), "model.kappa and bead.moment")):
+            with self.subTest(sets=sets):
+                told = festoon("check", *before, *(word for value in sets for word in ("--set", value)))[2]
+                self.assertEqual("give the same quantity" in told, dropped is not None, told)
+                self.assertIn(f"{dropped} give the same quantity" if dropped else "", told)
+        given = ["sweep", "--set", "bead.moment=0.0005", "--set", "magnet.b0=10mT", "--set", "run.periods=6", "-o"]
+        told = festoon(*given, self.path("k.db"), "--over", "model.kappa=1:2:3")[2]
+        self.assertEqual(told.count("model.kappa is varied, so that magnet.b0 follows"), 1, told)
+        self.assertNotIn("follows", festoon(*given, self.path("f.db"), "--over", "drive.frequency=9Hz:10Hz:3")[2])
         twice = self.json("check", "--set", "drive.frequency=11", "--set", "drive.frequency=12")
         self.assertEqual(twice["scene"]["drive.frequency"], 12)
 
