@@ -26,6 +26,9 @@ static const double ROLLS =
     0.5; /* a bead in the lock of a wave has its velocity, but for such a part: drag makes it slip */
 static const double STUDENT = 6.35; /* 95 % limit of a mean's error over the difference of two halves: 12.7/2 */
 static const double AT_REST = 1e-6; /* speed in the turning frame below which a bead is locked */
+/* Mean rates of the window's halves that differ by more than <alpha'> over this leave the sense open; so does a rate that
+ * is rounding, over omega. */
+static const double ONE_WAY = 2.5, ROUNDING = 1e-9;
 
 /* Numbers of a group that are followed, and of a bead in a moment. */
 enum { TURNED, CENTRE_R, AXIS, OF_GROUP };
@@ -151,7 +154,15 @@ static double frame_turned(const beads_world *world, double from, double to)
     return fst_frame_angle(&world->around, to) - fst_frame_angle(&world->around, from);
 }
 
-static fst_regime regime_of(const beads_seen *seen, int i, double mean_alpha_dot)
+/* The mean rate at which bead i of n circles in the laboratory from one moment to the other. */
+static double circled(const beads_world *world, int n, const beads_moment *from, const beads_moment *to, int i)
+{
+    return frame_turned(world, from->time, to->time) / (to->time - from->time) +
+           mean_rate(n, from, to, ANGLE, i);
+}
+
+/* `apart`: by how much the mean rates of the window's halves differ. */
+static fst_regime regime_of(const beads_seen *seen, int i, double mean_alpha_dot, double apart)
 {
     const double omega = seen->world->omega, *bead = seen->y + FST_BEAD_NUMBERS * i;
     const double u = bead[BEADS_V] + omega * bead[1], v = bead[BEADS_V + 1] - omega * bead[0];
@@ -166,6 +177,8 @@ static fst_regime regime_of(const beads_seen *seen, int i, double mean_alpha_dot
         return FST_REGIME_UNDECIDED; /* words for motions beside a magnet that turns steadily */
     if (fabs(mean_alpha_dot - omega) < WITH_MAGNET * omega)
         return hypot(u, v) < AT_REST ? FST_REGIME_LOCKED : FST_REGIME_LIBRATING;
+    if (!(fabs(mean_alpha_dot) > ONE_WAY * apart + ROUNDING * omega))
+        return FST_REGIME_UNDECIDED;
     return mean_alpha_dot < 0 ? FST_REGIME_COUNTER_ROTATING : FST_REGIME_COROTATING;
 }
 
@@ -197,13 +210,14 @@ static void tell_beads(const beads_seen *seen, const beads_moment at[3], fst_bea
     for (int i = 0; i < n; ++i) {
         fst_bead_result *bead = &beads[i];
         bead->mean_r = mean_rate(n, from, to, R, i);
-        bead->mean_alpha_dot = frame_turned(seen->world, from->time, to->time) / (to->time - from->time) +
-                               mean_rate(n, from, to, ANGLE, i);
+        bead->mean_alpha_dot = circled(seen->world, n, from, to, i);
+        const double apart =
+            fabs(circled(seen->world, n, &at[1], to, i) - circled(seen->world, n, from, &at[1], i));
         const double load = mean_rate(n, from, to, LOAD, i);
         bead->mean_load_weights = over_plate ? load / (seen->world->body[i].mass * seen->world->gravity) : NAN;
         bead->mean_height = over_plate ? NAN : load;
         bead->ejected_at = seen->ejected[i];
-        bead->regime = regime_of(seen, i, bead->mean_alpha_dot);
+        bead->regime = regime_of(seen, i, bead->mean_alpha_dot, apart);
         bead->mean_velocity = is_in_wave(seen->world) ? mean_rate(n, from, to, X, i) : NAN;
         bead->mean_velocity_error =
             STUDENT * fabs(mean_rate(n, &at[1], to, X, i) - mean_rate(n, from, &at[1], X, i));

@@ -16,6 +16,9 @@
  * than their share, and the balance of energy would show it. */
 static const double CLOSER = 0.1;
 
+/* The speed below which a bead rests, and over omega the rate at which it circles. */
+static const double AT_REST = 1e-6;
+
 /* Numbers of a run that nothing tells. */
 static void begin_result(fst_run_result *run)
 {
@@ -47,7 +50,39 @@ static void to_laboratory(const fst_groups *g, const fst_surroundings *around, d
     }
 }
 
-static void give_reason(const fst_beads_result *beads, const fst_groups *g, fst_run_result *run)
+/* Whether anything turns or travels: a scene may have coils, parts that stand still or a uniform field alone. */
+static int is_driven(const fst_params *params)
+{
+    int moving = params->magnet_shape != FST_MAGNET_PARTS;
+    for (int i = 0; i < params->magnet_part_count && !moving; ++i)
+        moving = params->magnet_parts[i].motion != FST_PART_FIXED;
+    return moving || params->drive_waveform == FST_WAVEFORM_WAVE;
+}
+
+/* A bead over a plate of whose motion no other word tells: it rests, keeps its side of the axis, or circles. */
+static void tell_undecided(const fst_bead_result *bead, const fst_params *params, const fst_groups *g,
+                           fst_run_result *run)
+{
+    const double *v = bead->final_state + 3, mm = 1e3 * g->length_unit;
+    const int stays = fabs(bead->mean_alpha_dot) < AT_REST * g->omega;
+    const double speed = fmax(fmax(fabs(v[0]), fabs(v[1])), fabs(v[2]));
+    run->regime = FST_REGIME_UNDECIDED;
+    if (stays)
+        (void)snprintf(run->reason, sizeof run->reason,
+                       speed < AT_REST ? "the bead rests in the laboratory, %.4g mm from the axis"
+                                       : "the bead circles neither way, on average %.4g mm from the axis",
+                       bead->mean_r * mm);
+    else
+        (void)snprintf(run->reason, sizeof run->reason, "%s; the bead circles at %.4g Hz",
+                       !is_driven(params) ? "nothing turns with which or against which it could circle"
+                       : params->drive_waveform == FST_WAVEFORM_STEADY
+                           ? "with the magnet or against it cannot be told yet: run longer"
+                           : "under this drive a motion has no word of its own",
+                       bead->mean_alpha_dot / (FST_TWO_PI * g->time_unit));
+}
+
+static void give_reason(const fst_beads_result *beads, const fst_params *params, const fst_groups *g,
+                        fst_run_result *run)
 {
     const fst_bead_result *bead = &beads->beads[0];
     const double mm = 1e3 * g->length_unit, seconds = g->time_unit;
@@ -77,10 +112,10 @@ static void give_reason(const fst_beads_result *beads, const fst_groups *g, fst_
         (void)snprintf(run->reason, room,
                        "its velocity is that of no lock: on average %.5g mm/s along the wave",
                        bead->mean_velocity * mm / seconds);
-    else if (bead->regime == FST_REGIME_UNDECIDED)
-        (void)snprintf(run->reason, room,
-                       "under this drive a motion has no word of its own; the bead circles at %.4g Hz",
-                       bead->mean_alpha_dot / (FST_TWO_PI * seconds));
+    else if (bead->regime == FST_REGIME_UNDECIDED ||
+             (!is_driven(params) &&
+              (bead->regime == FST_REGIME_COUNTER_ROTATING || bead->regime == FST_REGIME_COROTATING)))
+        tell_undecided(bead, params, g, run);
     else
         (void)snprintf(run->reason, room, "the bead circles at %.4g of the drive's rate",
                        bead->mean_alpha_dot / beads->omega);
@@ -91,7 +126,7 @@ static void fill(const fst_params *params, const fst_groups *g, const fst_surrou
 {
     const fst_bead_result *bead = &beads->beads[0];
     fst_run_result *run = &result->run;
-    give_reason(beads, g, run);
+    give_reason(beads, params, g, run);
     run->omega = g->omega;
     run->frequency_hz = g->omega / (FST_TWO_PI * g->time_unit);
     run->mean_r = bead->mean_r;

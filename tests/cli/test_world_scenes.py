@@ -158,6 +158,27 @@ class Worlds(Case):
         self.assertTrue(json.loads(self.good("orbit", self.scene("bowl"), "--json"))["stable"])
         self.assertIn("--kind locked", self.refused("branch", self.scene("bowl"), "--kind", "counter", "--over", "drive.omega=0.1:0.2"))
 
+    def test_a_bead_at_rest_circles_neither_way(self):
+        """Beside a block that stands still, in a uniform field, over a coil: rounding is no sense, and nothing drives."""
+        bead = ("start.r=0.5", "start.spin=rest", "bead.remanence=1.2T", "bead.density=7500", "magnet.shape=parts")
+        block = ("kind=cuboid", "size=50mm,20mm,10mm", "remanence=0.5T,0,0", "motion=fixed")
+        fixed, uniform = [f"magnet.parts[0].{key}" for key in block], ["field.uniform[0]=1mT"]
+        coil = [f"coils[0].{key}" for key in ("radius=40mm", "centre=0,0,-20mm", "axis=0,0,1", "turns=200", "current=1")]
+        dipole = [f"magnet.parts[1].{key}" for key in ("kind=dipole", "centre=0,0,-30mm", "moment=0.2,0,0")]
+        for world, says in ((fixed, "rests in the laboratory"), (uniform, "rests in the laboratory"), (coil, "neither way"),
+                            ([*fixed, *dipole], "neither way")):
+            for more in ("run.duration=4s", "run.duration=5s", "start.phi=20"):
+                words = [word for text in (*bead, *world, "run.duration=4s", more) for word in ("--set", text)]
+                run = json.loads(self.good("run", *words, "--json"))
+                self.assertEqual(run["regime"], "undecided", run["reason"])
+                self.assertIn(says, run["reason"])
+                self.assertLess(abs(run["mean_alpha_dot"]), 1e-9 * run["omega"])
+        circling = ("--set", "start.velocity[1]=0.3", "--set", "friction.law=none", "--set", "run.duration=2s")
+        words = [word for text in (*bead[1:], *coil, "start.r=0.5") for word in ("--set", text)]
+        told = json.loads(self.good("run", *words, *circling, "--json"))
+        self.assertNotIn("drive's rate", told["reason"])
+        self.assertNotIn("rotating", told["regime"])
+
     def test_driven(self):
         words = ("--set", "world.frame=laboratory", "--set", "run.discard=1", "--set", "drive.frequency=164", "--set",
                  "start.position[2]=32 mm")
