@@ -409,6 +409,24 @@ static fst_status finish_clock(measure_work *work, double drive, const measure_d
     return status;
 }
 
+/* Of a bead that could not be followed, and whose strongest line is not its rate, neither rate is known. */
+static fst_status not_followed(const measure_work *work, int filmed, measure_drive *found,
+                               fst_measurement *measured)
+{
+    *found = (measure_drive){.motion = FST_MOTION_UNKNOWN,
+                             .relative = filmed,
+                             .radial = NAN,
+                             .fastest = fastest_line(work, most_of_lines(work, GREATEST_DRIVE)),
+                             .folded = 1,
+                             .bead_folded = 1};
+    measure_warn(
+        measured,
+        "from frame to frame the bead goes too far round the axis to be followed at %.4g frames a second: "
+        "its frequency is not known; film at a higher frame rate",
+        work->fps);
+    return FST_OK;
+}
+
 fst_status measure_find_drive(measure_work *work, const fst_measure_options *options, measure_drive *found,
                               fst_measurement *measured, fst_error *error)
 {
@@ -416,6 +434,8 @@ fst_status measure_find_drive(measure_work *work, const fst_measure_options *opt
     const int known = isfinite(drive) && drive > 0, timed = isfinite(work->track->fps);
     const int filmed = (work->bead > 0 ? 1 : -1) * (options->drive < 0 ? -1 : 1);
     int agreed = 0;
+    if (measure_line_is_beside(work))
+        return not_followed(work, filmed, found, measured);
     if (known && timed)
         agreed = by_drive(work, drive, filmed, found, measured);
     if (known && !agreed)

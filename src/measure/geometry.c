@@ -184,15 +184,20 @@ static void circle(measure_work *work)
     work->centre[1] = mean[1] + fit.coefficient[2];
 }
 
-/* r and alpha of a row; alpha is unwrapped along the present model of it. */
-static void place_row(measure_work *work, size_t i)
+double measure_angle(measure_work *work, size_t i)
 {
-    double row[MEASURE_MOST_COLUMNS];
     const double x = work->x[i] - work->centre[0], y = work->y[i] - work->centre[1];
     const double px = work->stretch[0] * x + work->stretch[1] * y;
     const double py = work->stretch[1] * x + work->stretch[2] * y;
     work->r[i] = sqrt(px * px + py * py);
-    const double angle = atan2(py, px);
+    return atan2(py, px);
+}
+
+/* r and alpha of a row; alpha is unwrapped along the present model of it. */
+static void place_row(measure_work *work, size_t i)
+{
+    double row[MEASURE_MOST_COLUMNS];
+    const double angle = measure_angle(work, i);
     (void)measure_angular_row(work, i, row);
     const double expected = measure_regression_value(&work->angular, row);
     work->alpha[i] = angle + FST_TWO_PI * round((expected - angle) / FST_TWO_PI);
@@ -200,7 +205,8 @@ static void place_row(measure_work *work, size_t i)
 
 static void place_rows(measure_work *work)
 {
-    for (size_t i = 0; i < work->count; ++i)
+    work->followed = measure_follow(work);
+    for (size_t i = 0; i < work->count && !work->followed; ++i)
         place_row(work, i);
 }
 
@@ -395,6 +401,9 @@ static fst_status begin_motion(measure_work *work, fst_error *error)
             error, FST_NO_CONVERGENCE, "",
             "the bead does not go round: its places scatter about one point, as those of a resting bead do");
     work->bead = line.frequency;
+    measure_regression_begin(&work->angular, 1);
+    if (measure_follow(work))
+        work->bead = (work->alpha[work->count - 1] - work->alpha[0]) / (FST_TWO_PI * measure_duration(work));
     if (fabs(work->bead) * measure_duration(work) < 0.9)
         return fst_fail(error, FST_NO_CONVERGENCE, "",
                         "the bead rests, or makes less than one turn in the film (%.2g turns): film it for at "

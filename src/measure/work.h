@@ -2,6 +2,7 @@
  *
  *   clean.c     places that no bead can have been at              fst_track --> rows of seen places
  *   geometry.c  centre, tilt, rate of turning, festoons           rows --> r, alpha, and a model of both
+ *   winding.c   how often the bead goes round, from place to place
  *   settle.c    what of the film comes before the motion has settled
  *   drive.c     the drive, the symmetry, whether the clock is right
  *   errors.c    what would have come out with other turns
@@ -34,6 +35,7 @@ typedef struct measure_work {
     double *scratch;       /* room for two numbers a row */
     double fps;            /* frames in a unit of t */
     double centre[2], stretch[3];
+    int followed;  /* alpha is unwrapped from place to place: no step is large */
     double bead;   /* turns of the bead in a unit of t, counter-clockwise positive, as filmed */
     double f0;     /* the frequency of which r has the harmonics; 0: r does not oscillate */
     int harmonics; /* how many are fitted */
@@ -68,6 +70,12 @@ fst_status measure_refine_motion(measure_work *work, fst_error *error);
 /* Put row `i` of the track at the place `at` of the work's arrays, with r and alpha by the present centre and
  * models. */
 void measure_place_row(measure_work *work, size_t at, size_t i);
+/* The angle of a row's place about the present centre; its r is kept. */
+double measure_angle(measure_work *work, size_t i);
+/* Unwrap alpha from place to place, beginning where the model has the film's middle.  0: a step is too large for that. */
+int measure_follow(measure_work *work);
+/* Whether the places, which could not be followed, go round the axis at another rate than that of work->bead. */
+int measure_line_is_beside(const measure_work *work);
 /* The slowest line of r that is looked for: slower ones are those of centre and tilt, or the film's length. */
 double measure_least_line(const measure_work *work);
 /* The amplitude of k f0 in r, 0 where the model lacks it, and the least one that would stand out of the noise. */
