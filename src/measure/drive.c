@@ -260,11 +260,20 @@ static void by_itself(measure_work *work, int filmed, measure_drive *found, fst_
     if (work->peak == 0.0) {
         measure_warn(measured, "r does not oscillate beyond the noise: how the magnet turns cannot be told");
     } else if (filmed > 0) {
-        measure_warn(measured,
-                     "the bead goes round counter-clockwise, as the magnet is taken to do: it may be locked or "
-                     "librating, or the film is mirrored, or the magnet turns clockwise (then the drive is "
-                     "about %.4g Hz: give it as %.4g Hz); the drive must be given to tell",
-                     work->peak / likely_lines(work) - bead, bead - work->peak / likely_lines(work));
+        measure_warn(
+            measured,
+            "the bead goes round counter-clockwise, as the magnet is taken to do: it may be locked or "
+            "librating, or go with a magnet of about %.4g Hz, or the film is mirrored, or the magnet turns "
+            "clockwise (then the drive is about %.4g Hz: give it as %.4g Hz); the drive must be given to "
+            "tell",
+            work->peak / likely_lines(work) + bead, work->peak / likely_lines(work) - bead,
+            bead - work->peak / likely_lines(work));
+    } else if (work->peak < LEAST_FESTOONS * bead && unfolded(work, 1) > most_of_lines(work, GREATEST_DRIVE)) {
+        measure_warn(
+            measured,
+            "r oscillates at %.4g Hz, too slowly for festoons at %.4g turns a second: the film is mirrored, "
+            "and the bead goes with the magnet, or the drive must be given to tell",
+            work->peak, bead);
     } else if (work->peak < LEAST_FESTOONS * bead) {
         measure_warn(
             measured,
@@ -282,13 +291,18 @@ static void by_itself(measure_work *work, int filmed, measure_drive *found, fst_
     }
 }
 
+/* Whether the bead has the magnet's rate. */
+static int goes_with(const measure_work *work, double drive)
+{
+    return fabs(fabs(work->bead) - drive) < 0.01 * drive;
+}
+
 /* The drive is given, and so is a clock: compare. */
 static int by_drive(measure_work *work, double drive, int filmed, measure_drive *found,
                     fst_measurement *measured)
 {
     const match m = work->peak > 0 ? best_match(work, drive, filmed) : (match){0, filmed, INFINITY, 0.0};
-    const int with_magnet = fabs(fabs(work->bead) - drive) < 0.01 * drive;
-    if (with_magnet && (filmed > 0 || !(m.miss < 1.0))) {
+    if (goes_with(work, drive) && (filmed > 0 || !(m.miss < 1.0))) {
         *found = (measure_drive){.motion = FST_MOTION_LOCKED, .relative = 1, .radial = NAN};
         if (filmed < 0)
             measure_warn(measured, "the bead goes round at the magnet's rate, but clockwise: the film is "
@@ -427,6 +441,20 @@ static fst_status not_followed(const measure_work *work, int filmed, measure_dri
     return FST_OK;
 }
 
+/* Of a motion that does not repeat itself the bead's rate alone is known. */
+static fst_status irregular(const measure_work *work, int filmed, measure_drive *found,
+                            fst_measurement *measured)
+{
+    *found = (measure_drive){.motion = FST_MOTION_UNKNOWN,
+                             .relative = filmed,
+                             .radial = NAN,
+                             .fastest = fastest_line(work, most_of_lines(work, GREATEST_DRIVE))};
+    measure_warn(measured,
+                 "the motion does not repeat itself (it may be chaotic): r has no frequency that would tell of "
+                 "the drive or of festoons");
+    return FST_OK;
+}
+
 fst_status measure_find_drive(measure_work *work, const fst_measure_options *options, measure_drive *found,
                               fst_measurement *measured, fst_error *error)
 {
@@ -434,8 +462,11 @@ fst_status measure_find_drive(measure_work *work, const fst_measure_options *opt
     const int known = isfinite(drive) && drive > 0, timed = isfinite(work->track->fps);
     const int filmed = (work->bead > 0 ? 1 : -1) * (options->drive < 0 ? -1 : 1);
     int agreed = 0;
-    if (measure_line_is_beside(work))
+    const measure_rate rate = measure_look_at_rate(work);
+    if (rate == MEASURE_RATE_UNKNOWN)
         return not_followed(work, filmed, found, measured);
+    if (rate == MEASURE_RATE_IRREGULAR && !(known && goes_with(work, drive)))
+        return irregular(work, filmed, found, measured);
     if (known && timed)
         agreed = by_drive(work, drive, filmed, found, measured);
     if (known && !agreed)

@@ -12,11 +12,14 @@
 #include "measure/work.h"
 
 #include "base/constants.h"
+#include "base/dot.h"
 
 /* The largest step that is followed, rad: the other way round it would be three halves of it. */
 #define LARGEST_STEP (0.8 * FST_PI)
+/* What of the places' size a curve may leave over that repeats itself. */
+#define IRREGULAR 0.25
 /* Waves on either side of the line, and moments of a swing at which their sum is looked at. */
-enum { SIDES = 3, WAVES = 2 * SIDES + 1, MOMENTS = 256 };
+enum { SIDES = 6, WAVES = 2 * SIDES + 1, MOMENTS = 256 };
 
 int measure_follow(measure_work *work)
 {
@@ -60,18 +63,15 @@ static void fit_curve(const measure_work *work, measure_regression *fit)
     measure_regression_solve(fit);
 }
 
-int measure_line_is_beside(const measure_work *work)
+/* How often the curve goes round the axis in a swing. */
+static double winding_of(const measure_regression *fit)
 {
-    if (work->followed || !(work->f0 > 0) || work->count < 8 * WAVES)
-        return 0;
-    measure_regression fit;
     double before = 0.0, turned = 0.0;
-    fit_curve(work, &fit);
     for (int m = 0; m <= MOMENTS; ++m) {
         double x = 0.0, y = 0.0;
         for (int k = -SIDES; k <= SIDES; ++k) {
             const double angle = FST_TWO_PI * k * m / MOMENTS, c = cos(angle), s = sin(angle);
-            const double *wave = fit.coefficient + 2 * (k + SIDES);
+            const double *wave = fit->coefficient + 2 * (k + SIDES);
             x += wave[0] * c - wave[1] * s;
             y += wave[0] * s + wave[1] * c;
         }
@@ -79,5 +79,18 @@ int measure_line_is_beside(const measure_work *work)
         turned += m > 0 ? remainder(angle - before, FST_TWO_PI) : 0.0;
         before = angle;
     }
-    return fabs(turned) > FST_PI;
+    return turned / FST_TWO_PI;
+}
+
+measure_rate measure_look_at_rate(const measure_work *work)
+{
+    if (!(work->f0 > 0) || work->count < 8 * WAVES)
+        return MEASURE_RATE_SURE;
+    measure_regression fit;
+    const double all = fst_dot(work->r, work->r, (int)work->count);
+    fit_curve(work, &fit);
+    const double left = all - fst_dot(fit.coefficient, fit.right, fit.columns);
+    if (left > IRREGULAR * IRREGULAR * all)
+        return work->followed ? MEASURE_RATE_IRREGULAR : MEASURE_RATE_UNKNOWN;
+    return !work->followed && fabs(winding_of(&fit)) > 0.5 ? MEASURE_RATE_UNKNOWN : MEASURE_RATE_SURE;
 }

@@ -74,8 +74,13 @@ void measure_place_row(measure_work *work, size_t at, size_t i);
 double measure_angle(measure_work *work, size_t i);
 /* Unwrap alpha from place to place, beginning where the model has the film's middle.  0: a step is too large for that. */
 int measure_follow(measure_work *work);
-/* Whether the places, which could not be followed, go round the axis at another rate than that of work->bead. */
-int measure_line_is_beside(const measure_work *work);
+/* Whether work->bead is the bead's rate. */
+typedef enum {
+    MEASURE_RATE_SURE,
+    MEASURE_RATE_IRREGULAR, /* it is, but the motion does not repeat itself: its r has no rate that tells of the drive */
+    MEASURE_RATE_UNKNOWN /* the bead could not be followed, and its places tell of no rate or of another one */
+} measure_rate;
+measure_rate measure_look_at_rate(const measure_work *work);
 /* The slowest line of r that is looked for: slower ones are those of centre and tilt, or the film's length. */
 double measure_least_line(const measure_work *work);
 /* The amplitude of k f0 in r, 0 where the model lacks it, and the least one that would stand out of the noise. */

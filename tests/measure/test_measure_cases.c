@@ -1,7 +1,7 @@
 /* fst_measure_track() on films of beads that the library moves: each kind of motion, and each fault of a film,
  * with what must come out; and the coverage of errors over a few films (test_measure_coverage.c has many).
  * tests: measure/measure.c measure/clean.c measure/geometry.c measure/spectrum.c measure/drive.c measure/settle.c
- *   measure/errors.c measure/sharpen.c measure/regress.c tracks/track.c
+ *   measure/winding.c measure/errors.c measure/sharpen.c measure/regress.c tracks/track.c
  * labels: numbers */
 #include "measure_coverage.h"
 
@@ -85,6 +85,53 @@ static void test_festoons(void **state)
         m = measured(&motion, &film, NAN, NAN, &track);
         assert_true(isnan(m.festoons) && isnan(m.drive_from_track_hz) && m.warning_count > 0);
         fst_track_free(&track);
+        made_motion_free(&motion);
+    }
+}
+
+/* With the magnet, against it, librating and chaotic: thinned as it may be, a film tells the run's rate, festoons and
+ * drive, or none; and those of a regular motion where it has enough frames. */
+static void test_senses(void **state)
+{
+    (void)state;
+    static const struct {
+        double depth, hertz, seconds, least; /* mm, Hz, s, frames a second that tell the rate */
+        int own, turns;                      /* another bead; it circles at a rate of its own */
+    } motions[] = {{10.0, 11.0, 5.0, 120.0, 1, 1},  {10.0, 13.0, 5.0, 240.0, 1, 1},
+                   {7.0, 9.0, 5.0, 25.0, 0, 1},     {8.0, 9.0, 60.0, 25.0, 0, 1},
+                   {16.2, 9.0, 5.0, 25.0, 0, 1},    {16.2, 8.0, 5.0, 60.0, 0, 0},
+                   {10.0, 9.0, 5.0, INFINITY, 0, 1}};
+    static const double rates[] = {240.0, 120.0, 60.0, 25.0};
+    for (size_t i = 0; i < sizeof motions / sizeof *motions; ++i) {
+        fst_params params = fst_default_params();
+        made_motion motion;
+        if (motions[i].own) {
+            params.bead_radius = 3.1e-3;
+            params.bead_mass = 0.9e-3;
+            params.model_kappa = 1.1;
+        }
+        params.magnet_depth = 1e-3 * motions[i].depth;
+        params.drive_frequency = motions[i].hertz;
+        params.run_periods = ceil((motions[i].seconds + 1.0) * motions[i].hertz) + 200.0;
+        made_motion_follow(&motion, &params);
+        for (size_t k = 0; k < 2 * sizeof rates / sizeof *rates; ++k) {
+            made_film film = made_film_plain();
+            fst_track track;
+            film.fps = rates[k / 2];
+            film.seconds = motions[i].seconds;
+            const int known = k % 2 == 0;
+            const fst_measurement m = measured(&motion, &film, known ? motion.drive : NAN, NAN, &track);
+            assert_true(isnan(m.bead_frequency_hz) == !(film.fps >= motions[i].least));
+            if (isfinite(m.bead_frequency_hz_error))
+                assert_near(m.bead_frequency_hz, 1e-4 + m.bead_frequency_hz_error, motion.bead);
+            if (isfinite(m.festoons_error))
+                assert_near(m.festoons, 1e-4 + m.festoons_error, motion.festoons);
+            if (isfinite(m.drive_from_track_hz_error))
+                assert_near(m.drive_from_track_hz, 1e-4 + m.drive_from_track_hz_error, motion.drive);
+            assert_true(!known || film.fps < 100.0 || film.fps < motions[i].least || !motions[i].turns ||
+                        isfinite(m.festoons));
+            fst_track_free(&track);
+        }
         made_motion_free(&motion);
     }
 }
@@ -545,6 +592,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_festoons),
+        cmocka_unit_test(test_senses),
         cmocka_unit_test(test_unsure_festoons),
         cmocka_unit_test(test_fading_festoons),
         cmocka_unit_test(test_transients),
