@@ -159,6 +159,8 @@ class BeadsRun(Shown, _Ran):
         return self._rows_of("beads", units)
 
     def _rows_of(self, what: str, units: Optional[str]) -> Table:
+        if what in ("scaled", "lab", "si"):  # as of every other result
+            what, units = "beads", what
         if what not in FRAMES:
             raise BadInput("to_pandas", f'unknown table "{what}"; there are {", ".join(FRAMES)}')
         one = what.removesuffix("s")
@@ -226,7 +228,7 @@ class WorldRun(Shown, _Ran):
         return WorldRun, (self.bead, self._told, self.trajectory)
 
     def __repr__(self) -> str:
-        return f"WorldRun: {self._told['regime']}, in the frame of the {self._told['frame']}\n  {self._told['reason']}"
+        return f"WorldRun: {self._told['regime']}, in the {self._told['frame'].replace('laboratory', "laboratory's")} frame\n  {self._told['reason']}"
 
 
 def _start(start: Any, beads: int, options: Any) -> Any:

@@ -100,7 +100,8 @@ def test_files_of_a_world(program, world, tmp_path):
     told = json.loads(start("run", "world.yaml", *short, "-o", "t.h5", "--sample-rate", "100", "--json"))
     bead = fs.World(tmp_path / "world.yaml", run__duration=0.05)
     run = bead.run(trajectory=True, fps=100)
-    assert isinstance(run, fs.WorldRun) and repr(bead).startswith("World(")
+    assert isinstance(run, fs.WorldRun) and f", in the {'turning' if run.frame == 'turning' else 'laboratory'}" in repr(run)
+    assert repr(bead).startswith("World(")
     assert bead.cause == {"wave": "drive.waveform", "compass": "field.uniform"}.get(world, "plate.shape")
     assert bead == fs.Bead(tmp_path / "world.yaml", run__duration=0.05) == pickle.loads(pickle.dumps(bead))
     assert run.frame == told["frame"] and run.regime == told["regime"] and np.array_equal(run.final_lab, told["final_lab"])
@@ -147,6 +148,7 @@ def test_tables(run):
     assert list(events.kind[:2]) == ["lift", "touch"] and events.attrs["units"]["time"] == "s"
     assert math.isclose(events.time[1], run.events[1]["time"] / 312.5)
     assert math.isclose(run.to_pandas("beads", "lab").mean_r[0], 23 * run.beads[0]["mean_r"])
+    assert run.to_pandas("lab").equals(run.to_pandas("beads", "lab"))  # as of every other result
     assert math.isclose(run.to_pandas("beads", "lab").mean_alpha_dot[0], 312.5 / (2 * math.pi) * run.beads[0]["mean_alpha_dot"])
     assert set(run.to_pandas("powers")) == {"drive", "plate", "pair", "impacts"} and len(run.to_pandas("groups")) == 1
     with pytest.raises(fs.BadInput, match="unknown table"):

@@ -53,7 +53,8 @@ static void print_world(const fst_params *params, const fst_world_result *result
                   result->final_time * time, second,
                   result->frame == FST_FRAME_LABORATORY ? "laboratory" : "turning magnet");
     if (isfinite(run->window_periods))
-        (void)fprintf(out, ", means over the last %.6g", run->window_periods);
+        (void)fprintf(out, ", means and powers over the last %.6g, in which the bead's own energy may change",
+                      run->window_periods);
     (void)fprintf(out, "\n");
     print_line(p, "mean distance from the axis", run->mean_r, "mean_r", "l");
     print_line(p, "mean height", result->mean_height, "mean_height", "l");

@@ -188,6 +188,14 @@ static void tell_length(const fst_grid *grid, char *about, size_t size)
                    timed ? base->run_duration : base->run_periods, timed ? "s" : "turns of the magnet");
 }
 
+const char *fst_sweep_blank(const fst_sweep_table *table)
+{
+    return table->rows < table->wanted
+               ? "no point of the sweep has a value to draw yet"
+               : "all points of the sweep are done, and none has a value to draw: their runs "
+                 "ended without one, as those of ejected beads do (--quantity regime shows it)";
+}
+
 void fst_sweep_about(const fst_sweep_table *table, const fst_sweep_slice *slice, char *about, size_t size)
 {
     const fst_grid *grid = table->grid;

@@ -24,6 +24,9 @@ typedef struct fst_sweep_slice {
     const struct fst_sweep_slice *whole; /* the family whose curve it is; NULL: it is alone */
 } fst_sweep_slice;
 
+/* Why a figure of a sweep has nothing to show: its points are not done yet, or they have no such value. */
+const char *fst_sweep_blank(const fst_sweep_table *table);
+
 /* Add to `about` what is the same at all points, and how many of the slice were computed. */
 void fst_sweep_about(const fst_sweep_table *table, const fst_sweep_slice *slice, char *about, size_t size);
 

@@ -320,7 +320,6 @@ fst_status fst_sweep_curves(const fst_sweep_table *table, const fst_sweep_quanti
         return FST_OK;
     fst_chart_free(d.chart);
     *chart = NULL;
-    return status == FST_OK ? fst_fail(error, FST_BAD_INPUT, "fst_figure_sweep",
-                                       "no point of the sweep has a value to draw yet")
+    return status == FST_OK ? fst_fail(error, FST_BAD_INPUT, "fst_figure_sweep", "%s", fst_sweep_blank(table))
                             : fst_fail(error, FST_NO_MEMORY, "fst_figure_sweep", "no memory for a figure");
 }

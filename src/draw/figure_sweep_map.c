@@ -269,7 +269,7 @@ static fst_status draw(map *m, const fst_sweep_quantity *quantity, const fst_swe
     const fst_grid *grid = m->table->grid;
     fst_figure_file figure;
     if (blank_points(m) == point_count(m))
-        return fst_fail(error, FST_BAD_INPUT, out, "no point of the sweep has a value to draw yet");
+        return fst_fail(error, FST_BAD_INPUT, out, "%s", fst_sweep_blank(m->table));
     fst_status status = lay_side(&m->up, grid, &m->axes[0], error);
     if (status == FST_OK)
         status = lay_side(&m->right, grid, &m->axes[1], error);

@@ -77,6 +77,12 @@ class Slices(Figures):
             self.good("sweep", *[w for text in settings for w in ("--set", text)], "--over", "drive.frequency=9Hz:12Hz:4", "-o", name)
             self.assertIn(told, words(self.plot(f"{len(settings)}.db", "--quantity", "mean_r")[0]))
 
+    def test_runs_that_all_end_without_a_value(self):
+        self.good("sweep", *SHORT, "--set", "plate.radius=22mm", "--over", "drive.frequency=14Hz:15Hz:3", "-o", self.path("e.db"))
+        told = self.refused("plot", self.path("e.db"), "--quantity", "mean_r", "-o", self.path("e.svg"))
+        self.assertIn("all points of the sweep are done, and none has a value", told)
+        self.good("plot", self.path("e.db"), "--quantity", "regime", "-o", self.path("e.svg"))
+
     def test_values_that_are_not_there(self):
         self.sweep("t.db", "model.kappa=1,1.5", "friction.law=viscous,rolling", "drive.frequency=9,10")
         plot = ("plot", self.path("t.db"), "-o", self.path("no.svg"), "--only")
