@@ -48,9 +48,8 @@ static fst_status apply_sets(const arguments *given, fst_params *params, fst_err
                 continue;
             key_of(given->options[k].value, one);
             key_of(given->options[i].value, two);
-            const int of_kappa = fst_params_takes_back(&before, params, one);
-            if (of_kappa || (strcmp(one, "model.kappa") != 0 && strcmp(two, "model.kappa") != 0 &&
-                             fst_params_clash(params, one, two)))
+            const int of_kappa = strcmp(one, "model.kappa") == 0 || strcmp(two, "model.kappa") == 0;
+            if (of_kappa ? fst_params_takes_back(&before, params, one) : fst_params_clash(params, one, two))
                 (void)fprintf(
                     stderr,
                     "festoon: warning: --set: %s and %s give the same quantity%s: the last counts, %s\n", one,

@@ -313,9 +313,10 @@ class Scenes(Case):
                 self.assertIn(f"{one} and {two} give the same quantity: the last counts, {two}", told)
         # kappa follows from the moment and B0: which of the three is given last counts, and what it drops is told.
         kappa, moment, field = "model.kappa=2", "bead.moment=0.01", "magnet.b0=10mT"
-        block = [f"--set=magnet.parts[0].{key}" for key in ("kind=dipole", "moment=0,0,1")]
+        block = [f"--set=magnet.parts[0].{key}" for key in ("kind=cuboid", "size[0]=0.05", "size[1]=0.02", "size[2]=0.01", "remanence[0]=1")]
+        block.append("--set=magnet.shape=parts")
         for before, sets, dropped in (([], (moment, field, kappa), "magnet.b0 and model.kappa"), ([], (kappa, moment, field), "model.kappa and magnet.b0"),
-                                      ([], (kappa, field, moment), "model.kappa and bead.moment"), ([], (field, kappa, moment), None),
+                                      ([], (kappa, field, moment), "model.kappa and bead.moment"), ([], (field, kappa, moment), "magnet.b0 and model.kappa"),
                                       ([], (kappa, moment), None), ([], (moment, kappa), None), ([], (kappa, field), None),
                                       (block, (moment, kappa), "bead.moment and model.kappa"), (block, (kappa, moment), "model.kappa and bead.moment")):
             with self.subTest(sets=sets):
