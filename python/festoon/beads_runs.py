@@ -228,7 +228,8 @@ class WorldRun(Shown, _Ran):
         return WorldRun, (self.bead, self._told, self.trajectory)
 
     def __repr__(self) -> str:
-        return f"WorldRun: {self._told['regime']}, in the {self._told['frame'].replace('laboratory', "laboratory's")} frame\n  {self._told['reason']}"
+        frame = {"laboratory": "laboratory's"}.get(self._told["frame"], self._told["frame"])
+        return f"WorldRun: {self._told['regime']}, in the {frame} frame\n  {self._told['reason']}"
 
 
 def _start(start: Any, beads: int, options: Any) -> Any:

@@ -73,12 +73,14 @@ static void tell_undecided(const fst_bead_result *bead, const fst_params *params
                                        : "the bead circles neither way, on average %.4g mm from the axis",
                        bead->mean_r * mm);
     else
-        (void)snprintf(run->reason, sizeof run->reason, "%s; the bead circles at %.4g Hz",
-                       !is_driven(params) ? "nothing turns with which or against which it could circle"
-                       : params->drive_waveform == FST_WAVEFORM_STEADY
-                           ? "with the magnet or against it cannot be told yet: run longer"
-                           : "under this drive a motion has no word of its own",
-                       bead->mean_alpha_dot / (FST_TWO_PI * g->time_unit));
+        (void)snprintf(
+            run->reason, sizeof run->reason,
+            !is_driven(params)
+                ? "nothing turns with which or against which it could circle; the bead circles at %.4g Hz"
+            : params->drive_waveform == FST_WAVEFORM_STEADY
+                ? "with the magnet or against it cannot be told yet: run longer; the bead circles at %.4g Hz"
+                : "under this drive a motion has no word of its own; the bead circles at %.4g Hz",
+            bead->mean_alpha_dot / (FST_TWO_PI * g->time_unit));
 }
 
 static void give_reason(const fst_beads_result *beads, const fst_params *params, const fst_groups *g,

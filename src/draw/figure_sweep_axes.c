@@ -192,8 +192,8 @@ const char *fst_sweep_blank(const fst_sweep_table *table)
 {
     return table->rows < table->wanted
                ? "no point of the sweep has a value to draw yet"
-               : "all points of the sweep are done, and none has a value to draw: their runs "
-                 "ended without one, as those of ejected beads do";
+               : "no point of the sweep has a value to draw, though all are done: it is null, as the "
+                 "means of an ejected bead are";
 }
 
 void fst_sweep_about(const fst_sweep_table *table, const fst_sweep_slice *slice, char *about, size_t size)

@@ -184,7 +184,8 @@ static void circle(measure_work *work)
     work->centre[1] = mean[1] + fit.coefficient[2];
 }
 
-double measure_angle(measure_work *work, size_t i)
+/* The angle of a row's place about the present centre; its r is kept. */
+static double angle_of(measure_work *work, size_t i)
 {
     const double x = work->x[i] - work->centre[0], y = work->y[i] - work->centre[1];
     const double px = work->stretch[0] * x + work->stretch[1] * y;
@@ -197,15 +198,25 @@ double measure_angle(measure_work *work, size_t i)
 static void place_row(measure_work *work, size_t i)
 {
     double row[MEASURE_MOST_COLUMNS];
-    const double angle = measure_angle(work, i);
+    const double angle = angle_of(work, i);
     (void)measure_angular_row(work, i, row);
     const double expected = measure_regression_value(&work->angular, row);
     work->alpha[i] = angle + FST_TWO_PI * round((expected - angle) / FST_TWO_PI);
 }
 
+/* r and alpha of all rows, alpha unwrapped from place to place.  0: a step is too large for that. */
+static int follow(measure_work *work)
+{
+    double row[MEASURE_MOST_COLUMNS];
+    for (size_t i = 0; i < work->count; ++i)
+        work->alpha[i] = angle_of(work, i);
+    (void)measure_angular_row(work, work->count / 2, row);
+    return measure_follow(work, measure_regression_value(&work->angular, row));
+}
+
 static void place_rows(measure_work *work)
 {
-    work->followed = measure_follow(work);
+    work->followed = follow(work);
     for (size_t i = 0; i < work->count && !work->followed; ++i)
         place_row(work, i);
 }
@@ -402,7 +413,7 @@ static fst_status begin_motion(measure_work *work, fst_error *error)
             "the bead does not go round: its places scatter about one point, as those of a resting bead do");
     work->bead = line.frequency;
     measure_regression_begin(&work->angular, 1);
-    if (measure_follow(work))
+    if (follow(work))
         work->bead = (work->alpha[work->count - 1] - work->alpha[0]) / (FST_TWO_PI * measure_duration(work));
     if (fabs(work->bead) * measure_duration(work) < 0.9)
         return fst_fail(error, FST_NO_CONVERGENCE, "",

@@ -21,26 +21,20 @@
 /* Waves on either side of the line, and moments of a swing at which their sum is looked at. */
 enum { SIDES = 6, WAVES = 2 * SIDES + 1, MOMENTS = 256 };
 
-int measure_follow(measure_work *work)
+int measure_follow(measure_work *work, double middle)
 {
-    double turns = 0.0, before = 0.0;
-    for (size_t i = 0; i < work->count; ++i) {
-        const double angle = measure_angle(work, i), step = angle - before;
-        const double whole = i > 0 ? round(step / FST_TWO_PI) : 0.0;
-        if (i > 0 && fabs(step - FST_TWO_PI * whole) > LARGEST_STEP)
+    double *turns = work->scratch;
+    turns[0] = 0.0;
+    for (size_t i = 1; i < work->count; ++i) {
+        const double step = work->alpha[i] - work->alpha[i - 1], whole = round(step / FST_TWO_PI);
+        if (fabs(step - FST_TWO_PI * whole) > LARGEST_STEP)
             return 0;
-        turns -= whole;
-        work->alpha[i] = angle;
-        work->scratch[i] = turns;
-        before = angle;
+        turns[i] = turns[i - 1] - whole;
     }
-    const size_t middle = work->count / 2;
-    double row[MEASURE_MOST_COLUMNS];
-    (void)measure_angular_row(work, middle, row);
-    const double expected = measure_regression_value(&work->angular, row);
-    const double off = round((expected - work->alpha[middle]) / FST_TWO_PI) - work->scratch[middle];
+    const size_t at = work->count / 2;
+    const double off = round((middle - work->alpha[at]) / FST_TWO_PI) - turns[at];
     for (size_t i = 0; i < work->count; ++i)
-        work->alpha[i] += FST_TWO_PI * (work->scratch[i] + off);
+        work->alpha[i] += FST_TWO_PI * (turns[i] + off);
     return 1;
 }
 

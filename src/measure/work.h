@@ -70,10 +70,9 @@ fst_status measure_refine_motion(measure_work *work, fst_error *error);
 /* Put row `i` of the track at the place `at` of the work's arrays, with r and alpha by the present centre and
  * models. */
 void measure_place_row(measure_work *work, size_t at, size_t i);
-/* The angle of a row's place about the present centre; its r is kept. */
-double measure_angle(measure_work *work, size_t i);
-/* Unwrap alpha from place to place, beginning where the model has the film's middle.  0: a step is too large for that. */
-int measure_follow(measure_work *work);
+/* Unwrap alpha from place to place, so that the film's middle lies nearest to this angle.  0: a step is too large for that,
+ * and alpha is as it was. */
+int measure_follow(measure_work *work, double middle);
 /* Whether work->bead is the bead's rate. */
 typedef enum {
     MEASURE_RATE_SURE,

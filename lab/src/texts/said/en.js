@@ -145,6 +145,10 @@ export default {
         locked: "it rolls {way} the wave, locked to its field from {side}, on average at {v} mm/s",
         noLock: "its velocity is that of no lock: on average {v} mm/s along the wave",
         noWord: "under this drive a motion has no word of its own; the bead circles at {f} Hz",
+        restsInLab: "the bead rests in the laboratory, {r} mm from the axis",
+        keepsSide: "the bead circles neither way, on average {r} mm from the axis",
+        notYetTold: "with the magnet or against it cannot be told yet: run longer; the bead circles at {f} Hz",
+        nothingTurns: "nothing turns with which or against which it could circle; the bead circles at {f} Hz",
         circles: "the bead circles at {n} of the drive's rate",
         /* of several beads */
         noTouch: "no two beads stay together for a turn of the magnet",
