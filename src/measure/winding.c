@@ -14,7 +14,8 @@
 #include "base/constants.h"
 #include "base/dot.h"
 
-/* The largest step that is followed, rad: the other way round it would be three halves of it. */
+/* The largest step that is followed, rad, also where frames are lost in which the bead went as fast as it ever did: the
+ * other way round it would be three halves of it. */
 #define LARGEST_STEP (0.8 * FST_PI)
 /* What of the places' size a curve may leave over that repeats itself. */
 #define IRREGULAR 0.25
@@ -23,14 +24,17 @@ enum { SIDES = 6, WAVES = 2 * SIDES + 1, MOMENTS = 256 };
 
 int measure_follow(measure_work *work, double middle)
 {
-    double *turns = work->scratch;
+    double *turns = work->scratch, fastest = 0.0, longest = 1.0; /* of a frame; frames */
     turns[0] = 0.0;
     for (size_t i = 1; i < work->count; ++i) {
         const double step = work->alpha[i] - work->alpha[i - 1], whole = round(step / FST_TWO_PI);
-        if (fabs(step - FST_TWO_PI * whole) > LARGEST_STEP)
-            return 0;
+        const double frames = fmax(1.0, round((work->t[i] - work->t[i - 1]) * work->fps));
+        fastest = fmax(fastest, fabs(step - FST_TWO_PI * whole) / frames);
+        longest = fmax(longest, frames);
         turns[i] = turns[i - 1] - whole;
     }
+    if (fastest * longest > LARGEST_STEP)
+        return 0;
     const size_t at = work->count / 2;
     const double off = round((middle - work->alpha[at]) / FST_TWO_PI) - turns[at];
     for (size_t i = 0; i < work->count; ++i)
