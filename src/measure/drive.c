@@ -423,7 +423,8 @@ static fst_status finish_clock(measure_work *work, double drive, const measure_d
     return status;
 }
 
-/* Of a bead that could not be followed, and whose strongest line is not its rate, neither rate is known. */
+/* Of a bead that could not be followed, and whose strongest line is not its rate, neither rate is known, nor what of r is
+ * its mean, its oscillation or a tilt. */
 static fst_status not_followed(const measure_work *work, int filmed, measure_drive *found,
                                fst_measurement *measured)
 {
@@ -431,6 +432,7 @@ static fst_status not_followed(const measure_work *work, int filmed, measure_dri
                              .relative = filmed,
                              .radial = NAN,
                              .fastest = fastest_line(work, most_of_lines(work, GREATEST_DRIVE)),
+                             .standing = 1,
                              .folded = 1,
                              .bead_folded = 1};
     measure_warn(
@@ -442,7 +444,7 @@ static fst_status not_followed(const measure_work *work, int filmed, measure_dri
 }
 
 /* Of a motion that does not repeat itself the bead's rate alone is known. */
-static fst_status irregular(const measure_work *work, int filmed, measure_drive *found,
+static fst_status irregular(const measure_work *work, double drive, int filmed, measure_drive *found,
                             fst_measurement *measured)
 {
     *found = (measure_drive){.motion = FST_MOTION_UNKNOWN,
@@ -452,6 +454,7 @@ static fst_status irregular(const measure_work *work, int filmed, measure_drive 
     measure_warn(measured,
                  "the motion does not repeat itself (it may be chaotic): r has no frequency that would tell of "
                  "the drive or of festoons");
+    look_for_standing(work, drive, found, measured);
     return FST_OK;
 }
 
@@ -466,7 +469,7 @@ fst_status measure_find_drive(measure_work *work, const fst_measure_options *opt
     if (rate == MEASURE_RATE_UNKNOWN)
         return not_followed(work, filmed, found, measured);
     if (rate == MEASURE_RATE_IRREGULAR && !(known && goes_with(work, drive)))
-        return irregular(work, filmed, found, measured);
+        return irregular(work, known && timed ? drive : NAN, filmed, found, measured);
     if (known && timed)
         agreed = by_drive(work, drive, filmed, found, measured);
     if (known && !agreed)
