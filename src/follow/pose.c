@@ -10,10 +10,11 @@
 
 enum { TERMS = 6, STEPS = 12, BEST = 4, STRIDE = 2 };
 
-#define CUT 9.0        /* squares, in sigma^2, at which an outlier counts half */
-#define GRID 0.2       /* rad between the rotations that are tried */
-#define MOST_SHIFT 0.1 /* radii that the centre moves at once */
-#define LIMB 0.97      /* radii: what is seen farther out is blurred with the plate, and counts as the limb */
+#define CUT 9.0          /* squares, in sigma^2, at which an outlier counts half */
+#define GRID 0.2         /* rad between the rotations that are tried */
+#define MOST_SHIFT 0.1   /* radii that the centre moves at once */
+#define LEAST_KNOWN 1e-3 /* 1/rad^2: where nothing is known, the error is many turns */
+#define LIMB 0.97        /* radii: what is seen farther out is blurred with the plate, and counts as the limb */
 
 double follow_seen(const follow_turning *t, const follow_turn *f, int k)
 {
@@ -292,4 +293,35 @@ void follow_known(follow_turning *t, follow_turn *f)
                     normal[TERMS * j + k] * normal[TERMS * k + l] / normal[(TERMS + 1) * k];
     for (int j = 0; j < 3; ++j)
         memcpy(f->known[j], normal + TERMS * j, sizeof f->known[j]);
+}
+
+double follow_unsure(const double known[3][3], const double n[3])
+{
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        double a[9], column[3] = {k == 0, k == 1, k == 2};
+        for (int i = 0; i < 9; ++i)
+            a[i] = known[i / 3][i % 3] + (i % 4 == 0 ? LEAST_KNOWN : 0.0);
+        if (!follow_solve(a, column, 3))
+            return INFINITY;
+        for (int i = 0; i < 3; ++i) /* n turns by what is across it */
+            sum += 0.5 * column[i] * ((i == k) - n[i] * n[k]);
+    }
+    return sqrt(fmax(0.0, sum));
+}
+
+int follow_known_together(const double one[3][3], const double other[3][3], double both[3][3])
+{
+    for (int j = 0; j < 3; ++j) {
+        double sum[9], column[3];
+        for (int i = 0; i < 9; ++i)
+            sum[i] = one[i / 3][i % 3] + other[i / 3][i % 3] + (i % 4 == 0 ? LEAST_KNOWN : 0.0);
+        for (int i = 0; i < 3; ++i)
+            column[i] = other[i][j];
+        if (!follow_solve(sum, column, 3))
+            return 0;
+        for (int i = 0; i < 3; ++i)
+            both[i][j] = fst_dot(one[i], column, 3);
+    }
+    return 1;
 }

@@ -35,6 +35,13 @@ void follow_known(follow_turning *t, follow_turn *f);
 /* How the light changes to the right and up at each point. */
 void follow_slopes(follow_turning *t);
 
+/* The error (rad) of a direction n by what is known of a rotation; where n is 0, about that of the rotation itself. */
+double follow_unsure(const double known[3][3], const double n[3]);
+
+/* What is known of a turning that is made of two, of which one and the other are known: (A^-1 + B^-1)^-1 = A (A + B)^-1 B.
+ * Returns 0 where that cannot be told. */
+int follow_known_together(const double one[3][3], const double other[3][3], double both[3][3]);
+
 /* The light before the surface is known: what marks change is in proportion to the mean.  Returns the usual spread, in
  * gray levels.  Then learn it from all good frames: a straight line of what was seen over what the surface has there. */
 double follow_light_begin(follow_turning *t);

@@ -28,6 +28,7 @@ enum {
     FACE_REPEATS = 10
 };
 
+#define MOST_APART 3e-3   /* of the squares of places, where these repeat themselves */
 #define LEAST_TURNS 2.0   /* of the bead around the centre */
 #define LEAST_FACING 0.45 /* cosine of the angle at which a face shows a mark well */
 #define OUTLIER 1.0       /* the square of the marks' contrast */
@@ -82,32 +83,37 @@ void follow_rhythm_place(const follow_rhythm *r, double time, double place[2], d
     }
 }
 
-/* Fit arrows, the centre and, by the arrows there are, changes of the rates to the first frames.  Returns the mean square that is left of the
- * places before the changes. */
+/* Fit arrows, the centre and, by the arrows there are, changes of the rates and of how the shutter rolls to the first frames.
+ * Returns the square that is left of the places before the changes. */
 static double fit_places(const follow_turning *t, int frames, follow_rhythm *r, int rates)
 {
     const int arrows = 2 * (2 * r->lines + 1);
-    equations e = {.count = arrows + 2 + (rates ? 2 : 0)};
+    equations e = {.count = arrows + 2 + (rates ? 4 : 0)};
     double squares = 0.0;
     for (int i = 0; i < frames; ++i) {
         const follow_turn *f = &t->turns[i];
-        double rows[2][UNKNOWNS] = {{0.0}, {0.0}};
+        const double time = f->time + (rates ? fst_dot(r->later, f->place, 2) : 0.0);
+        double rows[2][UNKNOWNS] = {{0.0}, {0.0}}, unused[2], v[2] = {0.0, 0.0};
         squares += fst_dot(f->place, f->place, 2);
         for (int k = 0; k <= 2 * r->lines; ++k) {
             const double *c = r->place + 2 * k;
             double a[2];
-            (void)arrow(r, k, f->time, a);
+            (void)arrow(r, k, time, a);
             rows[0][2 * k] = rows[1][2 * k + 1] = a[0];
             rows[0][2 * k + 1] = -a[1];
             rows[1][2 * k] = a[1];
             for (int which = 0; which < 2 && rates; ++which) {
-                const double by = (f->time - r->start) * (which ? k - r->lines : 1);
+                const double by = (time - r->start) * (which ? k - r->lines : 1);
                 rows[0][arrows + 2 + which] -= by * (c[0] * a[1] + c[1] * a[0]);
                 rows[1][arrows + 2 + which] += by * (c[0] * a[0] - c[1] * a[1]);
             }
         }
+        if (rates)
+            follow_rhythm_place(r, time, unused, v);
         for (int axis = 0; axis < 2; ++axis) {
             rows[axis][arrows + axis] = 1.0;
+            for (int which = 0; which < 2 && rates; ++which)
+                rows[axis][arrows + 4 + which] = v[axis] * f->place[which];
             add(&e, rows[axis], f->place[axis], 1.0);
         }
     }
@@ -116,8 +122,10 @@ static double fit_places(const follow_turning *t, int frames, follow_rhythm *r, 
     if (!follow_solve(e.normal, found, e.count))
         return INFINITY;
     memcpy(r->place, found, (size_t)(arrows + 2) * sizeof *found);
-    for (int which = 0; which < 2 && rates; ++which)
+    for (int which = 0; which < 2 && rates; ++which) {
         r->rates[which] += found[arrows + 2 + which];
+        r->later[which] += found[arrows + 4 + which];
+    }
     return squares - fst_dot(found, e.right, e.count);
 }
 
@@ -137,10 +145,14 @@ static int goes_round(const follow_turning *t, follow_rhythm *r)
     return fabs(turned) > LEAST_TURNS * FST_TWO_PI;
 }
 
-/* Both rates, first by the first frames: that of the distance is the one whose three arrows leave least of the places. */
-static int find_rates(const follow_turning *t, follow_rhythm *r)
+/* Both rates, first by the first frames: that of the distance is the one whose three arrows leave least of the places.
+ * Returns the square that is left of them; INFINITY: they do not repeat themselves. */
+static double find_rates(const follow_turning *t, follow_rhythm *r)
 {
     int frames = t->count < FIRST_FRAMES ? t->count : FIRST_FRAMES;
+    *r = (follow_rhythm){.start = t->turns[0].time};
+    if (!goes_round(t, r))
+        return INFINITY;
     const double span = t->turns[frames - 1].time - r->start;
     double least = INFINITY, rate = 0.0;
     r->lines = 1;
@@ -161,7 +173,21 @@ static int find_rates(const follow_turning *t, follow_rhythm *r)
             least = fit_places(t, frames, r, 1);
         }
     }
-    return isfinite(least);
+    return least;
+}
+
+void follow_rhythm_shutter(follow_turning *t, double usual)
+{
+    follow_rhythm r;
+    double most = 0.0;
+    const double left = find_rates(t, &r);
+    for (int i = 0; i < t->count && isfinite(left); ++i)
+        most = fmax(most, fabs(fst_dot(r.later, t->turns[i].place, 2)));
+    if (!(left < MOST_APART * t->count * fst_dot(r.place, r.place, 2 * (2 * r.lines + 1))) ||
+        most > 0.5 * usual) /* a shutter is done before the next frame */
+        return;
+    for (int i = 0; i < t->count; ++i)
+        t->turns[i].time += fst_dot(r.later, t->turns[i].place, 2);
 }
 
 /* How many lines the turning from one frame to the next still shows. */
@@ -201,23 +227,6 @@ void follow_rhythm_rate(const follow_rhythm *r, double time, double rate[3])
         for (int p = 0; p < count; ++p)
             rate[i] += r->rate[p] * w[p][i];
     }
-}
-
-/* What two rotations know of the turning from one to the other: (A^-1 + B^-1)^-1 = A (A + B)^-1 B. */
-static int known_between(const follow_turn *a, const follow_turn *b, double known[3][3])
-{
-    for (int j = 0; j < 3; ++j) {
-        double sum[9], column[3];
-        for (int i = 0; i < 9; ++i)
-            sum[i] = a->known[i / 3][i % 3] + b->known[i / 3][i % 3] + (i % 4 == 0 ? 1e-3 : 0.0);
-        for (int i = 0; i < 3; ++i)
-            column[i] = b->known[i][j];
-        if (!follow_solve(sum, column, 3))
-            return 0;
-        for (int i = 0; i < 3; ++i)
-            known[i][j] = fst_dot(a->known[i], column, 3);
-    }
-    return 1;
 }
 
 /* The turning from one frame to the next by the waves, and how it changes with each of them. */
@@ -283,7 +292,8 @@ static double fit_rotations(const follow_turning *t, double usual, follow_rhythm
     for (int i = 0; i + 1 < t->count; ++i) {
         const follow_turn *a = &t->turns[i], *b = a + 1;
         double off[3], known_off[3], known[3][3], change[3][UNKNOWNS];
-        if (!a->good || !b->good || b->time - a->time > 1.5 * usual || !known_between(a, b, known))
+        if (!a->good || !b->good || b->time - a->time > 1.5 * usual ||
+            !follow_known_together(a->known, b->known, known))
             continue;
         turning_between(r, a, b, off, change);
         for (int k = 0; k < 3; ++k)
@@ -409,8 +419,7 @@ static void widen(const follow_turning *t, follow_rhythm *r)
 int follow_rhythm_begin(follow_turning *turning, double usual, follow_rhythm *rhythm)
 {
     equations e;
-    *rhythm = (follow_rhythm){.start = turning->turns[0].time};
-    if (!goes_round(turning, rhythm) || !find_rates(turning, rhythm))
+    if (!isfinite(find_rates(turning, rhythm)))
         return 0;
     const int most = most_lines(rhythm, usual, FACE_LINES);
     rhythm->lines = 0;
@@ -466,10 +475,10 @@ static double missing(double radius, const follow_rhythm *all, const equations *
 
 void follow_rhythm_find(const follow_turning *turning, double usual, follow_rhythm *rhythm)
 {
-    *rhythm = (follow_rhythm){.start = turning->turns[0].time};
-    follow_rhythm tried = *rhythm;
+    follow_rhythm tried;
     double least = INFINITY;
-    if (!goes_round(turning, &tried) || !find_rates(turning, &tried))
+    *rhythm = (follow_rhythm){.lines = 0};
+    if (!isfinite(find_rates(turning, &tried)))
         return;
     const int most = most_lines(&tried, usual, FOLLOW_LINES);
     equations e;

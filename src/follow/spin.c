@@ -5,6 +5,7 @@
  * By how much all rotations are off such smooth paths, beyond what was expected, tells by how much their errors have
  * to be widened.  Of a motion that repeats itself (rhythm.c) frames that show no mark are known by those before and after.
  */
+#include "follow/pose.h"
 #include "follow/rhythm.h"
 
 #include <math.h>
@@ -36,6 +37,8 @@ enum {
 #define ALIKE 5.0
 /* The mean of chi^2 of 15 degrees of freedom, which the wider window leaves, over its median. */
 #define MEDIAN_CHI 1.046
+
+static const fst_turning nothing = {{NAN, NAN, NAN}, NAN, {NAN, NAN, NAN}, NAN, {NAN, NAN}, NAN};
 
 /* A frame of a window, and what of its rotation the fit expects. */
 typedef struct near_frame {
@@ -301,22 +304,6 @@ static void scatter(const follow_turning *t, const follow_rhythm *rhythm, double
     *place = sqrt(off[0] / fmax(1.0, off[1]));
 }
 
-/* The error of a direction n by what is known of a rotation. */
-static double across(const double known[3][3], const double n[3])
-{
-    double sum = 0.0;
-    for (int k = 0; k < 3; ++k) {
-        double a[9], column[3] = {k == 0, k == 1, k == 2};
-        for (int i = 0; i < 9; ++i)
-            a[i] = known[i / 3][i % 3] + (i % 4 == 0 ? 1e-3 : 0.0);
-        if (!follow_solve(a, column, 3))
-            return INFINITY;
-        for (int i = 0; i < 3; ++i) /* n turns by what is across it */
-            sum += 0.5 * column[i] * ((i == k) - n[i] * n[k]);
-    }
-    return sqrt(fmax(0.0, sum));
-}
-
 static void drop_unsure(fst_turning *told)
 {
     for (int i = 0; i < 3 && !(told->n_error < MOST_ERROR); ++i)
@@ -337,7 +324,7 @@ static void tell(const follow_turning *t, const follow_turn *f, const window *w,
         flat += i < 2 ? 0.5 * c[(UNKNOWN + 1) * (3 + i)] : 0.0;
     }
     /* By what the frame alone knows: its neighbours err alike, so that their mean is no better. */
-    told->n_error = widen * across(f->known, told->n);
+    told->n_error = widen * follow_unsure(f->known, told->n);
     drop_unsure(told);
     if (!(widen * sqrt(rate) < MOST_ERROR))
         return;
@@ -361,7 +348,7 @@ static double tell_all(const follow_turning *t, const follow_rhythm *rhythm, dou
     for (int i = 0; i < t->count; ++i) {
         window w = {.rhythm = rhythm};
         const int middle = collect(t, i, SIDE, usual, &w);
-        told[i] = (fst_turning){{NAN, NAN, NAN}, NAN, {NAN, NAN, NAN}, NAN, {NAN, NAN}, NAN};
+        told[i] = nothing;
         if (middle < 0 || !fit(&w, middle))
             continue;
         if (w.chi2 < MOST_CHI2 * widen * widen)
@@ -395,24 +382,20 @@ static sizes sizes_of(const fst_turning *told, int count)
 static void carry(const double known[3][3], const double from[3][3], const double to[3][3], double unsure,
                   double later[3][3])
 {
-    double turn[3][3], turned[3][3], a[3][3];
+    double turn[3][3], turned[3][3], a[3][3], sure[3][3];
     for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
+        for (int j = 0; j < 3; ++j) {
             turn[i][j] = fst_dot(to[i], from[j], 3);
+            sure[i][j] = i == j ? 1.0 / fmax(unsure, 1e-30) : 0.0;
+        }
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
             turned[i][j] = fst_dot(turn[i], known[j], 3);
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
             a[i][j] = fst_dot(turned[i], turn[j], 3);
-    for (int j = 0; j < 3; ++j) {
-        double left[9], column[3] = {a[0][j], a[1][j], a[2][j]};
-        for (int i = 0; i < 9; ++i)
-            left[i] = unsure * a[i / 3][i % 3] + (i % 4 == 0 ? 1.0 : 0.0);
-        const int solved = follow_solve(left, column, 3);
-        for (int i = 0; i < 3; ++i)
-            later[i][j] = solved ? column[i] : 0.0;
-    }
+    if (!follow_known_together((const double(*)[3])a, (const double(*)[3])sure, later))
+        memset(later, 0, 9 * sizeof later[0][0]);
 }
 
 /* What all frames know of each rotation, where what repeats itself tells the turning between them: `sure` gets it. */
@@ -449,12 +432,12 @@ static int keep_rhythm(const follow_turning *t, const follow_rhythm *rhythm, dou
     for (int i = 0; i < t->count; ++i) {
         const double time = t->turns[i].time;
         double place[2], v[2], *w = told[i].w;
-        told[i] = (fst_turning){{NAN, NAN, NAN}, NAN, {NAN, NAN, NAN}, NAN, {NAN, NAN}, NAN};
+        told[i] = nothing;
         if (isinf(left[i].w_error) || !t->turns[i].good)
             continue;
         for (int k = 0; k < 3; ++k)
             told[i].n[k] = fst_dot(t->turns[i].pose.turn[k], axis, 3);
-        told[i].n_error = across((const double(*)[3])sure[i], told[i].n);
+        told[i].n_error = follow_unsure((const double(*)[3])sure[i], told[i].n);
         drop_unsure(&told[i]);
         follow_rhythm_rate(rhythm, time, w);
         follow_rhythm_place(rhythm, time, place, v);
@@ -488,10 +471,7 @@ fst_status follow_spin(const follow_turning *turning, fst_track *track, fst_erro
                 track->rhythm = rhythm.lines;
         }
         for (size_t i = 0; i < count; ++i)
-            track->turning[turning->turns[i].frame] = told[i];
-        for (size_t i = 0; i < track->rows; ++i)
-            if (isinf(track->turning[i].w_error))
-                track->turning[i].w_error = NAN;
+            track->turning[turning->turns[i].frame] = isinf(told[i].w_error) ? nothing : told[i];
     }
     free(sure);
     free(told);

@@ -19,6 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/dot.h"
 #include "base/error.h"
 #include "base/order.h"
@@ -48,6 +49,7 @@ enum {
 #define LEAST_SPREAD 2.0    /* gray levels that marks change on a point of the face */
 #define ENOUGH 0.5          /* of what is foretold from a frame: no better one is looked for */
 #define LEAST_GAIN 5e-6     /* of what is explained, for another pass */
+#define FEWEST_FRAMES 15.0  /* in which the bead swings once, where some show few marks */
 #define MOST_MOVED 0.05     /* rad in a pass, by a rotation that finds its place */
 #define LEAST_KEPT 0.5      /* of a pass's movement by the next */
 #define LEAP 8.0            /* times the movement of a pass */
@@ -155,28 +157,16 @@ static void expect_rhythm(follow_turning *t, const follow_rhythm *rhythm, double
         follow_rhythm_turning(rhythm, t->turns[i - 1].time, t->turns[i].time, t->turns[i].step);
 }
 
-/* How unsure a frame alone leaves its rotation (rad). */
-static double unsure(follow_turning *t, follow_turn *f)
-{
-    double sum = 0.0;
-    follow_known(t, f);
-    for (int j = 0; j < 3; ++j) {
-        double known[9], column[3] = {j == 0, j == 1, j == 2};
-        for (int i = 0; i < 9; ++i)
-            known[i] = f->known[i / 3][i % 3] + (i % 4 == 0 ? 1.0 : 0.0);
-        sum += follow_solve(known, column, 3) ? column[j] / 3.0 : 1.0;
-    }
-    return sqrt(sum);
-}
-
 /* Where all frames tell their rotation about as well, expect no more of them.  Else expect what the rotations that were found repeat,
  * for those frames which show but one mark, or none. */
 static void expect_better(follow_turning *t, double *room)
 {
     const int most = (int)(NEARLY_ALL * (t->count - 1));
     follow_rhythm rhythm;
-    for (int i = 0; i < t->count; ++i)
-        room[i] = unsure(t, &t->turns[i]);
+    for (int i = 0; i < t->count; ++i) {
+        follow_known(t, &t->turns[i]);
+        room[i] = follow_unsure((const double(*)[3])t->turns[i].known, (const double[3]){0.0, 0.0, 0.0});
+    }
     qsort(room, (size_t)t->count, sizeof *room, fst_ascending);
     if (room[most] < ABOUT_AS_WELL * room[t->count / 2]) {
         t->trust = 0.0;
@@ -388,10 +378,13 @@ fst_status follow_turning_find(follow_turning *turning, const fst_progress *prog
     }
     fst_status status = FST_OK;
     const int marked = t->count >= WINDOW && follow_light_begin(t) >= LEAST_SPREAD;
+    const double usual = marked ? follow_usual_step(t, room) : NAN;
+    if (marked)
+        follow_rhythm_shutter(t, usual);
+    follow_rhythm rhythm = {.lines = 0};
     for (int repeats = 1; repeats >= 0 && marked && *explained < LEAST_EXPLAINED; --repeats) {
-        follow_rhythm rhythm;
         t->trust = 0.0;
-        if (repeats && !follow_rhythm_begin(t, follow_usual_step(t, room), &rhythm))
+        if (repeats && !follow_rhythm_begin(t, usual, &rhythm))
             continue;
         if (repeats)
             expect_rhythm(t, &rhythm, ROUGHLY);
@@ -402,7 +395,9 @@ fst_status follow_turning_find(follow_turning *turning, const fst_progress *prog
             next = repeats ? WINDOWS : next; /* a wrong rhythm does not become right */
         }
     }
-    const int is_found = *explained >= LEAST_EXPLAINED;
+    /* Frames that show but one mark follow a rhythm that they do not test: it must be slow enough to be known. */
+    const int unsure = t->trust > 0.0 && fabs(rhythm.rates[1]) * usual > FST_TWO_PI / FEWEST_FRAMES;
+    const int is_found = *explained >= LEAST_EXPLAINED && !unsure;
     if (!is_found)
         *explained = 0.0;
     for (int i = 0; i < t->count && is_found; ++i)

@@ -260,6 +260,34 @@ static void make_track(fst_track *track)
         assert_int_equal(fst_track_append(track, i, STEP * i, 0.0, 0.0, &error), FST_OK);
 }
 
+/* A shutter that rolls, in a film that was turned: frames show the bead later than they say, which its places tell.  What does
+ * not repeat itself tells no more than the time of half a frame. */
+static void shutters(void **state)
+{
+    (void)state;
+    uint64_t seed = 11;
+    for (kind what = ONCE; what <= REPEATS; ++what) {
+        const double later[2] = {8e-6, -20e-6}; /* s/mm */
+        double most = 0.0, first = NAN;
+        follow_turning t;
+        begin(&t, what);
+        for (int i = 0; i < FRAMES; ++i) {
+            t.turns[i].time -= fst_dot(later, t.turns[i].place, 2);
+            for (int j = 0; j < 2; ++j)
+                t.turns[i].place[j] += 0.01 * normal(&seed);
+        }
+        follow_rhythm_shutter(&t, STEP);
+        for (int i = 0; i < FRAMES; ++i) { /* all may be late alike */
+            const double late = t.turns[i].time - STEP * i;
+            first = i == 0 ? late : first;
+            most = fmax(most, fabs(late - first));
+        }
+        print_message("times are off by up to %.1f us\n", 1e6 * most);
+        assert_true(most < (what == REPEATS ? 2e-5 : STEP));
+        follow_turning_end(&t);
+    }
+}
+
 /* Frames that show no mark. */
 static int hidden(kind what, int i)
 {
@@ -521,10 +549,15 @@ static void no_marks(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rotation_vectors), cmocka_unit_test(cameras),
-        cmocka_unit_test(axes_of_marks),    cmocka_unit_test(spins),
-        cmocka_unit_test(lines_of_sight),   cmocka_unit_test(faces),
-        cmocka_unit_test(faces_in_rhythm),  cmocka_unit_test(no_marks),
+        cmocka_unit_test(rotation_vectors),
+        cmocka_unit_test(cameras),
+        cmocka_unit_test(axes_of_marks),
+        cmocka_unit_test(spins),
+        cmocka_unit_test(shutters),
+        cmocka_unit_test(lines_of_sight),
+        cmocka_unit_test(faces),
+        cmocka_unit_test(faces_in_rhythm),
+        cmocka_unit_test(no_marks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

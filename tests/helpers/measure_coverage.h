@@ -9,16 +9,26 @@
 #include "base/constants.h"
 #include "made_tracks.h"
 
-enum { COVERED_MEAN, COVERED_STD, COVERED_BEAD, COVERED_FESTOONS, COVERED_DRIVE, COVERED_TILT, COVERED };
+enum {
+    COVERED_MEAN,
+    COVERED_STD,
+    COVERED_BEAD,
+    COVERED_FESTOONS,
+    COVERED_DRIVE,
+    COVERED_RADIAL,
+    COVERED_TILT,
+    COVERED
+};
 static const char *const covered_names[COVERED] = {
-    "mean_r", "std_r", "bead_frequency_hz", "festoons", "drive_from_track_hz", "tilt_deg"};
+    "mean_r",  "std_r", "bead_frequency_hz", "festoons", "drive_from_track_hz", "radial_frequency_hz",
+    "tilt_deg"};
 
 /* Motions in both symmetries, at both ends of what the paper shows. */
 enum { MOTIONS = 5 };
-static const double drives_hz[MOTIONS] = {11.5, 19.9, 10.7, 12.4, 15.6};
+static const double usual_drives[MOTIONS] = {11.5, 19.9, 10.7, 12.4, 15.6};
 
 /* The first `count` motions, followed for so many seconds. */
-static inline void make_motions(made_motion motions[MOTIONS], int count, double seconds)
+static inline void make_motions(made_motion *motions, const double *drives_hz, int count, double seconds)
 {
     for (int i = 0; i < count; ++i) {
         fst_params params = fst_default_params();
@@ -73,8 +83,8 @@ typedef struct coverage {
 } coverage;
 
 /* Measure a film and count. */
-static inline void cover_film(coverage *c, int number, const made_motion *motion, const made_film *film,
-                              int has_drive)
+static inline fst_measurement cover_film(coverage *c, int number, const made_motion *motion,
+                                         const made_film *film, int has_drive)
 {
     fst_track track;
     fst_measure_options options = fst_default_measure_options();
@@ -91,6 +101,7 @@ static inline void cover_film(coverage *c, int number, const made_motion *motion
         {m.bead_frequency_hz, m.bead_frequency_hz_error, motion->bead},
         {m.festoons, m.festoons_error, motion->festoons},
         {m.drive_from_track_hz, m.drive_from_track_hz_error, motion->drive},
+        {m.radial_frequency_hz, m.radial_frequency_hz_error, motion->festoons * fabs(motion->bead)},
         {m.tilt_deg, m.tilt_deg_error, film->tilt},
     };
     ++c->counted;
@@ -108,6 +119,7 @@ static inline void cover_film(coverage *c, int number, const made_motion *motion
                 film->seconds, film->noise, film->tilt, film->exposure, film->lost, film->wild, film->clock);
     }
     fst_track_free(&track);
+    return m;
 }
 
 /* Of each number at least `least` films have an error, and the truth lies within it as often as chance makes of 68 and 95
@@ -134,7 +146,7 @@ static inline void check_coverage(int kinds, int films, double least_turns, doub
     made_motion motions[MOTIONS];
     coverage c = {.counted = 0};
     uint64_t chance = 20260101;
-    make_motions(motions, kinds, longest);
+    make_motions(motions, usual_drives, kinds, longest);
     for (int i = 0; i < films; ++i) {
         int has_drive;
         made_film film = random_film(&chance, longest, &has_drive);
@@ -143,7 +155,7 @@ static inline void check_coverage(int kinds, int films, double least_turns, doub
                            fabs(motions[i % kinds].bead);
             film.fps = fmax(film.fps, 100.0);
         }
-        cover_film(&c, i, &motions[i % kinds], &film, has_drive);
+        (void)cover_film(&c, i, &motions[i % kinds], &film, has_drive);
     }
     judge_coverage(&c, 3.0, (most_turns > 0 ? 0.9 : 1.0) * films);
     for (int i = 0; i < kinds; ++i)
@@ -157,12 +169,12 @@ static inline void check_settling_coverage(int kinds, int films)
     made_motion settled[MOTIONS];
     coverage c = {.counted = 0};
     uint64_t chance = 20260103;
-    make_motions(settled, kinds, 1.0);
+    make_motions(settled, usual_drives, kinds, 1.0);
     for (int kind = 0; kind < kinds; ++kind) {
         made_motion motion;
         fst_params params = fst_default_params();
-        params.drive_frequency = drives_hz[kind];
-        params.run_periods = ceil(longest * drives_hz[kind]);
+        params.drive_frequency = usual_drives[kind];
+        params.run_periods = ceil(longest * usual_drives[kind]);
         params.run_discard = 0.0;
         made_motion_follow(&motion, &params);
         motion.mean_r = settled[kind].mean_r;
@@ -175,7 +187,7 @@ static inline void check_settling_coverage(int kinds, int films)
             film.fps = fmax(film.fps, 100.0);
             film.seconds = fmax(film.seconds, 6.0);
             film.start = 0.0;
-            cover_film(&c, i, &motion, &film, has_drive);
+            (void)cover_film(&c, i, &motion, &film, has_drive);
         }
         made_motion_free(&motion);
         made_motion_free(&settled[kind]);
@@ -191,7 +203,7 @@ static inline void check_clockless_coverage(int kinds, int films)
     made_motion motions[MOTIONS];
     coverage c = {.counted = 0};
     uint64_t chance = 20260105;
-    make_motions(motions, kinds, longest);
+    make_motions(motions, usual_drives, kinds, longest);
     for (int i = 0; i < films; ++i) {
         int has_drive;
         made_film film = random_film(&chance, longest, &has_drive);
@@ -203,7 +215,7 @@ static inline void check_clockless_coverage(int kinds, int films)
         film.exposure = made_chance(&chance) * fmin(1.0 / film.fps, 1.0 / 120);
         if (!has_drive) /* without a clock it has no length */
             film.exposure = 0.0;
-        cover_film(&c, i, &motions[i % kinds], &film, has_drive);
+        (void)cover_film(&c, i, &motions[i % kinds], &film, has_drive);
     }
     /* The drive that the track tells is the one that gave the clock, and no measurement. */
     c.known[COVERED_DRIVE] = -1;
@@ -219,11 +231,11 @@ static inline void check_coarse_coverage(int kinds, int films)
     made_motion motions[MOTIONS];
     coverage c = {.counted = 0};
     uint64_t chance = 20260102;
-    make_motions(motions, kinds, longest);
+    make_motions(motions, usual_drives, kinds, longest);
     for (int i = 0; i < films; ++i) {
         int has_drive;
         const made_film film = coarse_film(&chance, longest, &has_drive);
-        cover_film(&c, i, &motions[i % kinds], &film, has_drive);
+        (void)cover_film(&c, i, &motions[i % kinds], &film, has_drive);
     }
     for (int q = 0; q < COVERED; ++q) {
         const double known = c.known[q], one = c.within[q][0] / known, two = c.within[q][1] / known;
