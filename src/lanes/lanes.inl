@@ -407,6 +407,7 @@ static fst_lane_tries try_steps(void *memory)
     FN(bead_try_step)(s);
     REAL error = FN(bead_step_error)(s, b->tolerance, b->absolute_tolerance);
 #if KNOWS_DRY
+    error = FN(lasting_error)(s, b->tolerance, error);
     if (own_time(b))
         error = FN(paced_error)(s, error);
 #endif

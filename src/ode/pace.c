@@ -22,7 +22,7 @@ static int has_pace(const fst_flow *flow)
 
 double fst_bead_error(const fst_bead_step_double *s, double rtol, const double *atol)
 {
-    const double error = fst_bead_step_error_double(s, rtol, atol);
+    const double error = fst_lasting_error_double(s, rtol, fst_bead_step_error_double(s, rtol, atol));
     if (fst_in_flight_double(FST_MODES(s)))
         return fmax(error, fst_flight_error(s, rtol));
     return FST_WORLD(s)->kinds.modes ? fst_paced_error_double(s, error) : error;

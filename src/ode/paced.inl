@@ -8,6 +8,8 @@
 #define PACED_ROUNDING 2e-15       /* of a slip, over the speeds whose difference it is */
 #define PACED_GREATEST_CREEP 0.005 /* a slip below this that changes by no more than this part in a step */
 #define PACED_CREEPS 0.125         /* may creep */
+#define PACED_TIGHTER 10.0         /* while a contact sticks, the tolerance is smaller by this factor, */
+#define PACED_TIGHTEST 1e-13       /* but not below this */
 #endif
 
 /* ------------------------------------------------------------------ how good a step is */
@@ -35,6 +37,15 @@ static inline REAL_MASK FN(rolls_in_theta)(const FN(bead_step) * s)
     const FN(modes) *m = FST_MODES(s);
     const REAL mode = REAL_SELECT(FN(in_flight)(m), R(1.0), m->rolling);
     return FN(is_moving)(HAS(FST_WORLD(s)->kinds, resists) ? mode : R(1.0));
+}
+
+/* The error of a step over its tolerance, where a contact sticks.  Friction then takes no power, so that nothing damps
+ * what errors of steps do to the energy and to other swings: they add up, and the next slip does not undo them. */
+static inline REAL FN(lasting_error)(const FN(bead_step) * s, REAL rtol, REAL error)
+{
+    const REAL room = REAL_MAX(rtol / R(PACED_TIGHTEST), R(1.0));
+    const REAL tighter = REAL_SELECT(REAL_LESS(room, R(PACED_TIGHTER)), room, R(PACED_TIGHTER));
+    return error * REAL_SELECT(REAL_LESS(R(0.5), FN(sticks)(FST_WORLD(s), FST_MODES(s))), tighter, R(1.0));
 }
 
 /* The error of a step over its tolerance, from `error`, that of the whole state: a slip keeps some digits, and

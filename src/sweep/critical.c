@@ -376,7 +376,7 @@ fst_status fst_critical_find(const fst_params *params, const fst_critical_option
     search s = {.params = params, .part = {options->progress, 0, 0, NULL}};
     *critical = (fst_critical){
         .special = -1, .value = NAN, .error = NAN, .until = NAN, .parting = NAN, .parting_error = NAN};
-    if (!(options->tolerance >= 1e-9 && options->tolerance < 0.1))
+    if (!(options->tolerance >= 1e-9 && options->tolerance <= 0.1))
         return fst_fail(error, FST_BAD_INPUT, "fst_critical_options.tolerance",
                         "tolerance = %g is out of range: it must be 1e-9 to 0.1", options->tolerance);
     fst_status status = fst_grid_new(params, &options->over, 1, 0, &grid, error);

@@ -124,7 +124,7 @@ static void test_a_held_disc_lets_go(void **unused)
 static void test_landing_on_events(void **unused)
 {
     (void)unused;
-    const fst_params p = dry_bead(0.215);
+    const fst_params p = dry_bead(0.225);
     static fst_stop stops[MOST];
     static double times[MOST];
     fst_flow *flow = begun(&p);
