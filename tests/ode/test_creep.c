@@ -306,6 +306,27 @@ static void test_rests_of_disc(void **unused)
     fst_model_free(model);
 }
 
+/* A disc whose pivoting comes to nothing while it creeps pivots on the other way, or is held there: it does both. */
+static void test_ways_of_disc(void **unused)
+{
+    (void)unused;
+    const fst_params p = disc_of(3e-4);
+    fst_model *model = model_of(&p);
+    double start[FST_STATE_SIZE];
+    start_of(&p, model, start);
+    fst_flow *flow = flow_of(model, 1e-9, start);
+    int held = 0, turned = 0;
+    while (flow->t.high < turns(model, 2)) {
+        const fst_modes_double was = *fst_flow_modes(flow), *is = fst_flow_modes(flow);
+        assert_int_equal(fst_flow_step(flow, turns(model, 2), NULL), FST_OK);
+        held += was.contact == FST_MODE_CREEP && is->contact == FST_MODE_STICK;
+        turned += was.contact == FST_MODE_CREEP && is->contact == FST_MODE_CREEP && is->way != was.way;
+    }
+    assert_true(held > 3 && turned > 3);
+    fst_flow_free(flow);
+    fst_model_free(model);
+}
+
 static void end_of_disc(double radius, double *end)
 {
     fst_params p = disc_of(radius);
@@ -345,6 +366,7 @@ int main(void)
         cmocka_unit_test(test_work),          cmocka_unit_test(test_neighbours),
         cmocka_unit_test(test_slip_of_disc),  cmocka_unit_test(test_motion_of_disc),
         cmocka_unit_test(test_rests_of_disc), cmocka_unit_test(test_limit_of_disc),
+        cmocka_unit_test(test_ways_of_disc),
     };
     return cmocka_run_group_tests_name("creep", tests, NULL, NULL);
 }
