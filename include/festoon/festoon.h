@@ -608,7 +608,7 @@ typedef struct fst_run_result {
 #undef FST_RESULT
     fst_regime regime;
     fst_symmetry symmetry;
-    int never_slips;  /* dry friction: whether the contact stuck all the time of the means; -1: other laws */
+    int never_slips; /* dry friction: whether the contact stuck in all of the means; -1: other laws, not known */
     char reason[256]; /* why this regime: the criterion and its numbers */
     uint64_t rhs_calls;
     uint64_t accepted, rejected; /* steps */

@@ -29,7 +29,7 @@ const sources = (...rooms) => rooms.flatMap((room) => readdirSync(join(SOURCE_DI
 
 /* All of whose sentences a run on the page can end in; pieces of longer ones, and what needs a call of C, are left out. */
 const TELLING = ["study/regime.c", "study/conclude.c", "beads/seen.c", "beads/world_run.c", "beads/events.c", "beads/flow.c", "ode/flow.c", "model/start.c", "model/surroundings.c", "model/waveform.c"];
-const LEFT_OUT = /^(; festoons|stays at the axis$|at %.4g, %.4g l|the axis of %d beads|this computation takes one bead|the distance from the axis of)|out of memory/;
+const LEFT_OUT = /^(; festoons|; whether the contact slips|stays at the axis$|at %.4g, %.4g l|the axis of %d beads|this computation takes one bead|the distance from the axis of)|out of memory/;
 
 /* Patterns that no single text of C holds, because the library puts their sentences together. */
 const MADE = /^(rangeInteger|noRemanence|noMoment|placeBeyond|chain|chainAtAxis|paradox|paradoxDry|mapTwice|mapCurl|mapCurlLittle|oneBead|onePart|oneSample|cluster|alone|oneApart|manyApart|oneEjected|manyEjected|turnsAxis|rateAxis)$/;

@@ -145,7 +145,7 @@ static void print_motion(const page *p, const fst_run_result *s)
 /* Dry friction: how the contact moves. */
 static void print_contact(const page *p, const fst_run_result *s)
 {
-    if (s->never_slips)
+    if (s->never_slips > 0)
         (void)fprintf(p->out, "  the contact never slips: the motion that is reached depends on the start\n");
     print_line(p, "contact at rest, share of time", s->sticking, NAN, "");
     print_line(p, "  slips that end, a turn of Phi", s->captures_per_return, NAN, "");
@@ -169,7 +169,7 @@ static void print_forces(const page *p, const fst_groups *g, const fst_run_resul
     print_load(p, "load on the plate", s->mean_load_weights, g);
     print_load(p, "  least", s->min_load_weights, g);
     print_load(p, "  greatest", s->max_load_weights, g);
-    if (s->never_slips >= 0)
+    if (!isnan(s->sticking))
         print_contact(p, s);
     else
         print_line(p, "friction rate if it were dry", s->dry_friction_rate, NAN, "1/s");

@@ -71,6 +71,7 @@ void fst_mark_take(fst_mark *mark, fst_quadrature *q, fst_flow *flow, double x, 
         return;
     fst_quadrature_at(q, flow, x, mark->integrals, &mark->moment_angle);
     mark->captures = flow->contact.captures;
+    mark->touches = flow->contact.touches;
     mark->impacts = flow->contact.impacts;
     mark->impulse = flow->contact.impulse;
     mark->impact_loss = flow->contact.impact_loss;

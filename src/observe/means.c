@@ -47,6 +47,8 @@ static const double PART = 0.5;
 static const double SHIFT = 2.0;
 /* The integration may have lost so many times its tolerance. */
 static const double LOST = 4.0;
+/* Where nothing damps what it lost, it has lost as much again after so many turns. */
+static const double TURNS = 400.0;
 
 /* sqrt(<u^2> - <u>^2) from <(u - u0)^2> and <u> - u0, never the root of a negative rounding error. */
 static double deviation(double mean_square, double mean_difference)
@@ -247,18 +249,23 @@ int fst_never_slips(const fst_window *w, const fst_mark_series *series)
            fst_mean_between(first, last, FST_Q_STICKING) > 1.0 - ROUNDING;
 }
 
-/* What a contact with dry friction does, which slips and sticks. */
-static void fill_contact(const fst_window *w, const fst_mark_series *series, fst_run_result *result)
+/* What a contact with dry friction does, which slips and sticks.  Whether it slips is not known where it nearly lets go
+ * without a slip, nor where its slips take less than what the integration may have lost. */
+static void fill_contact(const fst_window *w, const fst_mark_series *series, double lost,
+                         fst_run_result *result)
 {
     const fst_mark *first = &series->kept[0], *last = &series->latest;
     const int64_t captures = last->captures - first->captures;
     const double sticking = fst_mean_between(first, last, FST_Q_STICKING),
                  slip2 = fst_mean_between(first, last, FST_Q_SLIP2);
-    result->never_slips = fst_never_slips(w, series);
-    result->sticking = result->never_slips ? 1.0 : sticking;
+    const int never_slips = fst_never_slips(w, series);
+    const double rubbed = result->mean_friction_power * fst_time_between(first, last);
+    const int as_well = never_slips ? last->touches > first->touches : rubbed < lost * fabs(last->energy);
+    result->never_slips = as_well && sticking > 0.5 ? -1 : never_slips;
+    result->sticking = never_slips ? 1.0 : sticking;
     result->mean_rolling_power = fst_mean_between(first, last, FST_Q_ROLLING_POWER);
     result->mean_pivoting_power = fst_mean_between(first, last, FST_Q_PIVOTING_POWER);
-    if (!result->never_slips && slip2 > 0)
+    if (!never_slips && slip2 > 0)
         result->effective_rate = result->mean_friction_power / slip2;
     result->flying = fst_mean_between(first, last, FST_Q_FLYING);
     result->mean_impact_power = (last->impact_loss - first->impact_loss) / fst_time_between(first, last);
@@ -272,7 +279,8 @@ static void fill_errors(const fst_window *w, const fst_mark_series *series, cons
                         int chaotic, fst_run_result *result)
 {
     const unseen lacks = unseen_of(w, series, result);
-    const double lost = LOST * params->run_rtol;
+    const double turns = series->latest.t.high / w->period;
+    const double lost = LOST * params->run_rtol * (fst_never_slips(w, series) ? 1.0 + turns / TURNS : 1.0);
     result->mean_r_error = error_of(w, series, chaotic, fmax(lacks.r, lost * fabs(result->mean_r)),
                                     offsetof(fst_ramp_point, mean_r));
     result->mean_alpha_dot_error = error_of(w, series, chaotic, fmax(lacks.alpha_dot, lost * w->groups.omega),
@@ -303,7 +311,7 @@ void fst_means_fill(const fst_window *w, const fst_mark_series *series, const fs
     result->mean_drive_power = fst_mean_between(first, last, FST_Q_DRIVE_POWER);
     result->energy_residual = energy_residual(series, last);
     if (w->dry)
-        fill_contact(w, series, result);
+        fill_contact(w, series, LOST * params->run_rtol, result);
     result->rms_slip = sqrt(fst_mean_between(first, last, FST_Q_SLIP2));
     result->tilt_deg = tilt(first, last);
     const double impulse = last->impulse - first->impulse;

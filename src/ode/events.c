@@ -291,6 +291,7 @@ int fst_flow_first_negative(fst_flow *flow, fst_state_function function, double 
     for (int i = 0; i <= PIECES; ++i) {
         at[i] = i == PIECES ? 1.0 : lo + (1.0 - lo) * i / PIECES;
         f[i] = fst_flow_function_at(flow, at[i], function);
+        flow->contact.dip = fmin(flow->contact.dip, f[i]);
     }
     if (f[0] < 0) {
         *x = lo;
@@ -306,6 +307,7 @@ int fst_flow_first_negative(fst_flow *flow, fst_state_function function, double 
             double bottom;
             const double place =
                 fst_flow_extreme(flow, state_function_at, &function, -1.0, at[before], at[after], &bottom);
+            flow->contact.dip = fmin(flow->contact.dip, bottom);
             if (bottom < 0) {
                 *x = fst_flow_locate(flow, function, at[before], place, f[before], bottom);
                 return 1;

@@ -16,6 +16,9 @@
 
 static const double HAND_OVER = 0.12;        /* times tolerance^(5/16) */
 static const double LEAST_HAND_OVER = 100.0; /* but at least so many captured */
+/* How close to letting go, over friction and the root of the tolerance, a contact is that may do so at another one: so
+ * large may swings be that the errors of steps still damp. */
+static const double CLOSE = 10.0;
 static const double USUAL_GROWTH = 0.1; /* of a slip, in l gamma^3: the time of the hand-over follows from it */
 
 static double captured(const fst_flow *flow)
@@ -113,16 +116,30 @@ void fst_slip_go_on(fst_flow *flow)
     slip_go_on(flow);
 }
 
+/* Whether a contact that sticks all along the last step was about to let go in it. */
+static int touches(const fst_flow *flow)
+{
+    const fst_bead_step_double *s = &flow->step;
+    const fst_world_double *c = FST_WORLD(s);
+    const fst_contact_double at =
+        fst_contact_of_double(c, FST_MODES(s), s->end, FST_PATH_PULL(s, FST_PATH_END));
+    return flow->contact.dip < CLOSE * sqrt(flow->rtol) * c->law.coulomb.holding * at.load;
+}
+
 double fst_slip_ends(fst_flow *flow, int *next)
 {
-    double x;
+    const int sticks = fst_contact_mode(flow) == FST_MODE_STICK;
+    double x = 2.0;
     if (fst_contact_mode(flow) == FST_MODE_CREEP)
         return fst_creep_ends(flow, next);
-    if (!is_disc(flow))
-        return slip_ends(flow, next);
-    *next = FST_MODE_SLIP;
-    const int sticks = fst_contact_mode(flow) == FST_MODE_STICK;
-    return sticks && fst_flow_becomes_negative(flow, disc_left, &x) ? x : 2.0;
+    flow->contact.dip = INFINITY;
+    if (!is_disc(flow)) {
+        x = slip_ends(flow, next);
+    } else if (sticks && fst_flow_becomes_negative(flow, disc_left, &x)) {
+        *next = FST_MODE_SLIP;
+    }
+    flow->contact.touches += sticks && x > 1.0 && touches(flow);
+    return x;
 }
 
 int fst_slip_after(const fst_flow *flow)

@@ -116,6 +116,15 @@ static void fill_turning(const fst_watched_run *run, fst_run_result *result)
                        single, 2.0 * single);
 }
 
+/* A contact of which it is not known whether it slips. */
+static void tell_of_contact(const fst_watched_run *run, fst_run_result *result)
+{
+    const size_t told = strlen(result->reason);
+    if (run->window.dry && result->never_slips < 0)
+        (void)snprintf(result->reason + told, sizeof result->reason - told,
+                       "; whether the contact slips depends on run.rtol");
+}
+
 void fst_conclude_ramp(const fst_watched_run *run, const fst_ramp *ramp, fst_run_result *result)
 {
     fill_end(run, 0, result);
@@ -154,6 +163,7 @@ fst_status fst_conclude(const fst_watched_run *run, const fst_exponent *exponent
     if (result->regime == FST_REGIME_CHAOTIC)
         fst_means_of_chaos(&run->window, series, run->params, result);
     fill_turning(run, result);
+    tell_of_contact(run, result);
     if (result->regime == FST_REGIME_LOCKED && !fst_n_is_free(run))
         result->tilt_deg = NAN; /* n stands still in the end; a plane would be that of the way there */
     return FST_OK;

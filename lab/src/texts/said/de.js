@@ -99,6 +99,7 @@ export default {
         manyPoints: "die Achsen ergeben mehr als {n} Punkte",
         ended: "{how} bei t = {t}, nach {n} Umdrehungen des Antriebs, bei r = {r}",
         orTwice: "{rest}; Girlanden: {n}, oder {twice}, falls S2",
+        orSlips: "{rest}; ob der Kontakt gleitet, hängt von run.rtol ab",
         shortRun: "der Lauf ist zu kurz: {n} Umdrehungen des Antriebs, von denen {discard} nicht zählen, lassen keine zwei ganzen für die Mittelwerte; run.periods erhöhen oder run.discard senken",
         tooShort: "zu kurz: Unter {n} ganzen Umdrehungen des Antriebs nach den nicht gezählten wird nichts entschieden",
         discContact: "ob die Bewegung regelmäßig oder chaotisch ist, lässt sich nicht sagen: Wie sich Nachbarn einer Kugel bewegen, die auf einer Kontaktfläche haftet, weiß dieses Programm nicht",

@@ -110,6 +110,7 @@ export default {
         /* what a run of one bead is */
         ended: "{how} at t = {t}, after {n} drive periods, at r = {r}",
         orTwice: "{rest}; festoons: {n}, or {twice} if S2",
+        orSlips: "{rest}; whether the contact slips depends on run.rtol",
         shortRun: "the run is too short: {n} drive periods and {discard} of them discarded leave no two whole ones for the means; raise run.periods or lower run.discard",
         tooShort: "too short: nothing is decided on less than {n} whole drive periods after the discard",
         discContact: "regular or chaotic cannot be told: how neighbours of a bead move that a disc of contact holds, is not known to this program",

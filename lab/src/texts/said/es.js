@@ -99,6 +99,7 @@ export default {
         manyPoints: "los ejes hacen más de {n} puntos",
         ended: "{how} en t = {t}, tras {n} periodos del accionamiento, en r = {r}",
         orTwice: "{rest}; festones: {n}, o {twice} si S2",
+        orSlips: "{rest}; que el contacto deslice o no depende de run.rtol",
         shortRun: "el ensayo es demasiado corto: {n} periodos del accionamiento, de los que {discard} no cuentan, no dejan dos enteros para las medias; aumenta run.periods o reduce run.discard",
         tooShort: "demasiado corto: nada se decide con menos de {n} periodos enteros del accionamiento tras los que no cuentan",
         discContact: "no se puede decir si es regular o caótico: este programa no sabe cómo se mueven los vecinos de una bola que sujeta un disco de contacto",

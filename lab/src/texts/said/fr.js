@@ -99,6 +99,7 @@ export default {
         manyPoints: "les axes font plus de {n} points",
         ended: "{how} à t = {t}, après {n} périodes de l’entraînement, à r = {r}",
         orTwice: "{rest} ; festons : {n}, ou {twice} si S2",
+        orSlips: "{rest} ; que le contact glisse ou non dépend de run.rtol",
         shortRun: "l’essai est trop court : {n} périodes de l’entraînement, dont {discard} ne comptent pas, n’en laissent pas deux entières pour les moyennes ; augmentez run.periods ou diminuez run.discard",
         tooShort: "trop court : rien n’est décidé sur moins de {n} périodes entières de l’entraînement après celles qui ne comptent pas",
         discContact: "on ne peut pas dire si c’est régulier ou chaotique : ce programme ne sait pas comment se meuvent les voisins d’une bille tenue par un disque de contact",

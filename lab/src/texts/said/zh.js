@@ -99,6 +99,7 @@ export default {
         manyPoints: "各轴的点数超过 {n}",
         ended: "{how}，t = {t}，在 {n} 个驱动周期之后，r = {r}",
         orTwice: "{rest}；花彩数：{n}，若为 S2 则 {twice}",
+        orSlips: "{rest}；接触点是否滑动取决于 run.rtol",
         shortRun: "运行太短：{n} 个驱动周期中 {discard} 个不计，剩下不足两个完整周期来求平均；请增大 run.periods 或减小 run.discard",
         tooShort: "太短：不计的部分之后，少于 {n} 个完整驱动周期时不作判断",
         discContact: "无法判断是规则还是混沌：本程序不知道由接触面拖住的小球的邻近运动如何变化",
