@@ -340,7 +340,6 @@ static fst_status eject(beads_flow *flow, int bead, fst_error *error)
     const double energy = beads_energy_now(flow);
     int touching[BEADS_CONTACTS];
     flow->ejected[bead] = flow->t.high;
-    (void)beads_way_out(&flow->world, bead, flow->step.y, &flow->at_magnet[bead]);
     flow->modes.gone[bead] = 1;
     for (int k = 0; k < flow->world.contacts; ++k)
         if (!beads_can_meet(&flow->world, &flow->modes, k))

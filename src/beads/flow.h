@@ -49,7 +49,6 @@ typedef struct beads_flow {
     double impacts;                 /* energy that impacts took */
     double carried;                 /* energy of beads that are gone, with that between them and the others */
     double ejected[FST_BEADS_MOST]; /* when, or NAN */
-    int at_magnet[FST_BEADS_MOST];  /* whether that was because it touched the magnet */
     double turned[FST_BEADS_MOST];  /* angle of each bead about the axis, in the turning frame, unwrapped */
     int64_t counts[FST_BEAD_EVENTS];
     fst_bead_event events[FST_BEADS_EVENTS];

@@ -166,13 +166,13 @@ static fst_regime regime_of(const beads_seen *seen, int i, double mean_alpha_dot
 {
     const double omega = seen->world->omega, *bead = seen->y + FST_BEAD_NUMBERS * i;
     const double u = bead[BEADS_V] + omega * bead[1], v = bead[BEADS_V + 1] - omega * bead[0];
+    const int held = !isnan(seen->world->plate);
     int at_magnet;
-    if (isnan(seen->world->plate)) {
-        (void)beads_way_out(seen->world, i, seen->y, &at_magnet);
-        return !seen->gone[i] ? FST_REGIME_LEVITATING : at_magnet ? FST_REGIME_TOUCHED : FST_REGIME_LOST;
-    }
+    (void)beads_way_out(seen->world, i, seen->y, &at_magnet);
     if (seen->gone[i])
-        return FST_REGIME_EJECTED;
+        return at_magnet ? FST_REGIME_TOUCHED : held ? FST_REGIME_EJECTED : FST_REGIME_LOST;
+    if (!held)
+        return FST_REGIME_LEVITATING;
     if (seen->world->surrounded && seen->world->around.drive.kind != FST_WAVEFORM_STEADY)
         return FST_REGIME_UNDECIDED; /* words for motions beside a magnet that turns steadily */
     if (fabs(mean_alpha_dot - omega) < WITH_MAGNET * omega)

@@ -62,12 +62,14 @@ double beads_way_out(const beads_world *world, int i, const double *y, int *at_m
 {
     const double *bead = y + FST_BEAD_NUMBERS * i, z = isnan(world->plate) ? bead[2] : 0.0;
     const double edge = world->plate_radius - sqrt(bead[0] * bead[0] + bead[1] * bead[1] + z * z);
-    double magnet = INFINITY, place[3] = {bead[0], bead[1], beads_height(world, i, y)};
+    const double place[3] = {bead[0], bead[1], beads_height(world, i, y)}, radius = world->body[i].radius;
+    double magnet = INFINITY, own[3] = {place[0], place[1], place[2]};
     if (world->clearance && world->surrounded)
-        fst_place_on_magnet(&world->around, beads_time(world, y),
-                            (const double[3]){place[0], place[1], place[2]}, place);
+        fst_place_on_magnet(&world->around, beads_time(world, y), place, own);
     if (world->clearance)
-        magnet = world->clearance(world->source, place[0], place[1], place[2]) - world->body[i].radius;
+        magnet = world->clearance(world->source, own[0], own[1], own[2]) - radius;
+    if (world->surrounded) /* beside coils the axes are those of the laboratory, in which they stand */
+        magnet = fmin(magnet, fst_distance_to_wire(&world->around, place) - radius);
     *at_magnet = magnet < edge;
     return *at_magnet ? magnet : edge;
 }

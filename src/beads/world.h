@@ -98,7 +98,7 @@ double beads_model_clearance(const void *model, double x, double y, double z);
 /* The gap between bead i and the plate; INFINITY: there is none. */
 double beads_plate_gap(const beads_world *world, int i, const double *y);
 
-/* The way to where bead i is gone, and whether it is the magnet that lies there. */
+/* The way to where bead i is gone, and whether it is the magnet, or the wire of a coil, that lies there. */
 double beads_way_out(const beads_world *world, int i, const double *y, int *at_magnet);
 
 /* Kinetic energy, and with it that in gravity, in the magnet's field and of the dipoles in each other's; of

@@ -94,9 +94,11 @@ static void give_reason(const fst_beads_result *beads, const fst_params *params,
     if (bead->regime == FST_REGIME_EJECTED || bead->regime == FST_REGIME_TOUCHED ||
         bead->regime == FST_REGIME_LOST)
         (void)snprintf(run->reason, room, "after %.4g s the bead %s", bead->ejected_at * seconds,
-                       bead->regime == FST_REGIME_TOUCHED ? "touched the magnet"
-                       : bead->regime == FST_REGIME_LOST  ? "was farther from the magnet than plate.radius"
-                                                          : "passed the plate's edge");
+                       bead->regime == FST_REGIME_TOUCHED && params->coil_count > 0
+                           ? "touched the magnet, or the wire of a coil"
+                       : bead->regime == FST_REGIME_TOUCHED ? "touched the magnet"
+                       : bead->regime == FST_REGIME_LOST    ? "was farther from the magnet than plate.radius"
+                                                            : "passed the plate's edge");
     else if (beads->outcome == FST_BEADS_UNDECIDED) {
         run->regime = FST_REGIME_UNDECIDED;
         (void)snprintf(run->reason, room, "%s", beads->reason);

@@ -32,11 +32,41 @@ static fst_status apply_set(const char *text, fst_params *params, fst_error *err
     return status;
 }
 
+/* Whether a --set gives `key`. */
+static int is_set(const arguments *given, const char *key)
+{
+    key_text set;
+    for (int i = 0; i < given->option_count; ++i) {
+        if (strcmp(given->options[i].row->name, "set") != 0)
+            continue;
+        key_of(given->options[i].value, set);
+        if (strcmp(set, key) == 0)
+            return 1;
+    }
+    return 0;
+}
+
+/* Tell what of the scene does not count because of what is set: of kappa, B0 and the bead's moment two give the third. */
+static void tell_dropped(const arguments *given, const fst_params *scene, const fst_params *now)
+{
+    static const struct {
+        const char *key, *from;
+    } rows[] = {{"model.kappa", "the magnet's field"}, {"magnet.b0", "model.kappa"}};
+    for (int k = 0; k < 2; ++k)
+        if (!is_set(given, rows[k].key) && fst_params_takes_back(scene, now, rows[k].key))
+            (void)fprintf(
+                stderr,
+                "festoon: warning: --set: the scene's %s does not count: it follows from the bead's moment and "
+                "%s\n",
+                rows[k].key, rows[k].from);
+}
+
 /* Apply each --set.  Of two that give one quantity the last counts, as of two that give one key, so that a script can
  * add its own behind others; but it is told, because it may be a mistake. */
 static fst_status apply_sets(const arguments *given, fst_params *params, fst_error *error)
 {
     fst_status status = FST_OK;
+    const fst_params scene = *params;
     for (int i = 0; i < given->option_count && status == FST_OK; ++i) {
         if (strcmp(given->options[i].row->name, "set") != 0)
             continue;
@@ -56,6 +86,8 @@ static fst_status apply_sets(const arguments *given, fst_params *params, fst_err
                     two, of_kappa ? " (with the bead's moment magnet.b0 gives kappa)" : "", two);
         }
     }
+    if (status == FST_OK)
+        tell_dropped(given, &scene, params);
     return status;
 }
 

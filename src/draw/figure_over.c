@@ -152,11 +152,15 @@ static void name_files(const source *sources, int count, char (*names)[FST_CAPTI
             shown[shown_count++] = sources[i].shown[k];
     }
     fst_caption_of_files(scenes, paths, count, shown, shown_count, names, same, size);
-    for (int i = 0; i < count; ++i) { /* runs that were begun where their neighbours ended */
-        const size_t used = strlen(names[i]), told = strlen(same);
-        if (sources[i].at[0] && !strstr(names[i], sources[i].at) && !strstr(same, sources[i].at))
-            (void)snprintf(same + told, size - told, "%sat %s", told ? "; " : "",
-                           sources[i].at); /* as by default */
+    int alike = 1; /* the slices: what they differ in is in the names */
+    for (int i = 1; i < count; ++i)
+        alike &= strcmp(sources[i].at, sources[0].at) == 0;
+    const size_t told = strlen(same);
+    if (alike && sources[0].at[0] && !strstr(same, sources[0].at) && !strstr(names[0], sources[0].at))
+        (void)snprintf(same + told, size - told, "%sat %.160s", told ? "; " : "",
+                       sources[0].at); /* as by default */
+    for (int i = 0; i < count; ++i) {  /* runs that were begun where their neighbours ended */
+        const size_t used = strlen(names[i]);
         if (sources[i].carry != FST_CARRY_NO)
             (void)snprintf(names[i] + used, FST_CAPTION_SIZE - used, ", %s",
                            sources[i].carry == FST_CARRY_UP ? "upwards" : "downwards");

@@ -167,6 +167,19 @@ static void add_fixed(const fst_surroundings *s, const double x[3], double b[3],
     }
 }
 
+double fst_distance_to_wire(const fst_surroundings *s, const double x[3])
+{
+    double nearest = INFINITY;
+    for (int i = 0; i < s->loop_count; ++i) {
+        const fst_part_double *part = &s->loops[i].part;
+        const double from[3] = {x[0] - part->centre[0], x[1] - part->centre[1], x[2] - part->centre[2]};
+        double own[3];
+        fst_into_part_double(part, from, own);
+        nearest = fmin(nearest, hypot(hypot(own[0], own[1]) - part->half[0], own[2]));
+    }
+    return nearest;
+}
+
 static void add_loops(const fst_surroundings *s, double t, const double x[3], double b[3],
                       fst_gradient_double *g, double change[3])
 {

@@ -33,6 +33,9 @@ fst_status fst_make_surroundings(const fst_model *model, fst_surroundings *s, fs
 void fst_surroundings_field(const fst_surroundings *s, double t, const double x[3], double b[3],
                             fst_gradient_double *g, double change[3]);
 
+/* How far a place is from the nearest wire of a coil, in l; infinite without coils. */
+double fst_distance_to_wire(const fst_surroundings *s, const double x[3]);
+
 /* A place on the axes of the frame as one on those of the magnet. */
 void fst_place_on_magnet(const fst_surroundings *s, double t, const double x[3], double own[3]);
 

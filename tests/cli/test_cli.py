@@ -323,6 +323,15 @@ class Scenes(Case):
                 told = festoon("check", *before, *(word for value in sets for word in ("--set", value)))[2]
                 self.assertEqual("give the same quantity" in told, dropped is not None, told)
                 self.assertIn(f"{dropped} give the same quantity" if dropped else "", told)
+        scene = self.path("moment.yaml")
+        for text, sets, dropped in (("bead: {moment: 0.0005}\nmagnet: {b0: 10 mT}\n", ("model.kappa=2",), "magnet.b0"),
+                                    ("model: {kappa: 2}\n", ("bead.moment=0.0005", "magnet.b0=10mT"), "model.kappa"),
+                                    ("model: {kappa: 2}\n", ("model.kappa=1.2",), None), ("model: {kappa: 2}\n", ("bead.moment=0.0005",), None)):
+            with open(scene, "w", encoding="utf-8") as file:
+                file.write(text)
+            told = festoon("check", scene, *(word for value in sets for word in ("--set", value)))[2]
+            self.assertEqual("does not count" in told, dropped is not None, told)
+            self.assertIn(f"the scene's {dropped} does not count" if dropped else "", told)
         given = ["sweep", "--set", "bead.moment=0.0005", "--set", "magnet.b0=10mT", "--set", "run.periods=6", "-o"]
         told = festoon(*given, self.path("k.db"), "--over", "model.kappa=1:2:3")[2]
         self.assertEqual(told.count("model.kappa is varied, so that magnet.b0 follows"), 1, told)

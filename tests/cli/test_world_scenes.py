@@ -60,6 +60,23 @@ class Worlds(Case):
         for word in ("means over", "power", "nan"):
             self.assertNotIn(word, text)
 
+    def test_a_bead_that_meets_a_wire_ends_there(self):
+        """The field of a wire has no end: a bead that a coil pulls in would take ever shorter steps."""
+        path = self.path("coil.yaml")
+        text = ("bead: {radius: 1 mm, density: 7.4 g/cm^3, remanence: 1.2 T}\nmagnet: {shape: parts, depth: 0 mm}\n"
+                "coils:\n  - {radius: 20 mm, centre: [0, 0, 1 mm], axis: [0.3, 0, 1], turns: 200, current: 2 A}\n"
+                "start: {position: [5 mm, 3 mm, 1 mm], spin: rest}\ndrive: {frequency: 2 Hz}\nrun: {duration: 2 s}\n")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        run = json.loads(self.good("run", path, "--json"))
+        self.assertEqual(run["regime"], "touched")
+        self.assertIn("the wire of a coil", run["reason"])
+        x, y, z = (1e3 * value for value in run["final_lab_si"][:3])
+        across = math.hypot(1, 0.3)
+        along = (0.3 * x + z - 1) / across  # the axis of the coil
+        off = math.hypot(math.sqrt(x * x + y * y + (z - 1) ** 2 - along * along) - 20, along)
+        self.assertAlmostEqual(off, 1, places=6)  # the bead's radius from the wire
+
     def test_branch_of_levitation(self):
         scene, path, figure = self.scene("levitation"), self.path("b.json"), self.path("b.svg")
         words = ("branch", scene, "--kind", "levitating", "--over", "magnet.parts[0].rotation[0]=3.5:6")

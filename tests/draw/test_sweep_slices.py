@@ -5,7 +5,7 @@ tests: draw/figure_sweep.c draw/figure_sweep_curves.c draw/figure_over.c"""
 import os
 import unittest
 
-from sweep_tools import festoon
+from sweep_tools import SHORT, festoon
 from test_sweep_figures import Figures, words
 
 

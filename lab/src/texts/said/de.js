@@ -184,7 +184,7 @@ export default {
         edges: "drei Maße, seine Kanten", diameterHeight: "zwei Maße, Durchmesser und Höhe", diameter: "ein Maß, den Durchmesser", noSize: "kein Maß",
         exponent: "Ljapunow-Exponent", time: "der Zeit t = {t}", timePlace: "t = {t} ({n} Umdrehungen des Antriebs), r = {r}",
         loadGone: "die Auflagekraft verschwand", edge: "die Kugel überschritt den Plattenrand", mapEdge: "die Kugel verließ die Scheibe, die das Feld in magnet.file abdeckt und jenseits derer es nicht bekannt ist,",
-        touched: "berührte die Kugel den Magneten", far: "war die Kugel weiter vom Magneten entfernt als plate.radius", pastEdge: "überschritt die Kugel den Plattenrand",
+        wire: "berührte die Kugel den Magneten oder den Draht einer Spule", touched: "berührte die Kugel den Magneten", far: "war die Kugel weiter vom Magneten entfernt als plate.radius", pastEdge: "überschritt die Kugel den Plattenrand",
         deltaR: "Delta r", logDeltaR: "der Logarithmus von Delta r", alongWave: "Geschwindigkeit längs der Welle", height: "Höhe",
         with: "in Richtung", against: "entgegen", above: "von oben", below: "von unten",
         chain: "eine Kette", ring: "ein Ring", cluster: "ein Haufen",

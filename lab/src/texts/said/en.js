@@ -199,7 +199,7 @@ export default {
         edges: "three sizes, its edges", diameterHeight: "two sizes, its diameter and its height", diameter: "one size, its diameter", noSize: "no size",
         exponent: "Lyapunov exponent", time: "t = {t}", timePlace: "t = {t} ({n} drive periods), r = {r}",
         loadGone: "the normal load on the plate fell to zero", edge: "the bead passed the plate's edge", mapEdge: "the bead left the disc that the map of magnet.file covers, beyond which the field is not known,",
-        touched: "touched the magnet", far: "was farther from the magnet than plate.radius", pastEdge: "passed the plate's edge",
+        wire: "touched the magnet, or the wire of a coil", touched: "touched the magnet", far: "was farther from the magnet than plate.radius", pastEdge: "passed the plate's edge",
         deltaR: "delta r", logDeltaR: "the logarithm of delta r", alongWave: "velocity along the wave", height: "height",
         with: "with", against: "against", above: "above", below: "below",
         chain: "chain", ring: "ring", cluster: "cluster",

@@ -184,7 +184,7 @@ export default {
         edges: "tres tamaños, sus aristas", diameterHeight: "dos tamaños, su diámetro y su altura", diameter: "un tamaño, su diámetro", noSize: "ningún tamaño",
         exponent: "exponente de Liapunov", time: "el instante t = {t}", timePlace: "t = {t} ({n} periodos del accionamiento), r = {r}",
         loadGone: "la carga sobre la placa se anuló", edge: "la bola pasó el borde de la placa", mapEdge: "la bola dejó el disco que cubre el mapa de magnet.file, más allá del cual no se conoce el campo,",
-        touched: "la bola tocó el imán", far: "la bola estaba más lejos del imán que plate.radius", pastEdge: "la bola pasó el borde de la placa",
+        wire: "la bola tocó el imán o el hilo de una bobina", touched: "la bola tocó el imán", far: "la bola estaba más lejos del imán que plate.radius", pastEdge: "la bola pasó el borde de la placa",
         deltaR: "δr", logDeltaR: "el logaritmo de δr", alongWave: "velocidad a lo largo de la onda", height: "altura",
         with: "con", against: "contra", above: "desde arriba", below: "desde abajo",
         chain: "una cadena", ring: "un anillo", cluster: "un grupo",

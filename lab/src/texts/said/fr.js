@@ -184,7 +184,7 @@ export default {
         edges: "trois tailles, ses arêtes", diameterHeight: "deux tailles, son diamètre et sa hauteur", diameter: "une taille, son diamètre", noSize: "aucune taille",
         exponent: "exposant de Liapounov", time: "l’instant t = {t}", timePlace: "t = {t} ({n} périodes de l’entraînement), r = {r}",
         loadGone: "la charge sur la plaque s’est annulée", edge: "la bille a passé le bord de la plaque", mapEdge: "la bille a quitté le disque que couvre la carte de magnet.file, au-delà duquel le champ n’est pas connu,",
-        touched: "la bille a touché l’aimant", far: "la bille était plus loin de l’aimant que plate.radius", pastEdge: "la bille a passé le bord de la plaque",
+        wire: "la bille a touché l’aimant, ou le fil d’une bobine", touched: "la bille a touché l’aimant", far: "la bille était plus loin de l’aimant que plate.radius", pastEdge: "la bille a passé le bord de la plaque",
         deltaR: "δr", logDeltaR: "le logarithme de δr", alongWave: "vitesse le long de l’onde", height: "hauteur",
         with: "avec", against: "contre", above: "d’en haut", below: "d’en bas",
         chain: "une chaîne", ring: "un anneau", cluster: "un amas",

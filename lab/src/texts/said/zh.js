@@ -184,7 +184,7 @@ export default {
         edges: "三个尺寸，即各边长", diameterHeight: "两个尺寸，即直径和高", diameter: "一个尺寸，即直径", noSize: "零个尺寸",
         exponent: "李雅普诺夫指数", time: "t = {t}", timePlace: "t = {t}（{n} 个驱动周期），r = {r}",
         loadGone: "对平板的压力降为零", edge: "小球越过平板边缘", mapEdge: "小球离开了 magnet.file 实测磁场图覆盖的圆盘，其外的磁场未知",
-        touched: "小球碰到磁铁", far: "小球离磁铁比 plate.radius 更远", pastEdge: "小球越过平板边缘",
+        wire: "小球碰到磁铁或线圈的导线", touched: "小球碰到磁铁", far: "小球离磁铁比 plate.radius 更远", pastEdge: "小球越过平板边缘",
         deltaR: "δr", logDeltaR: "δr 的对数", alongWave: "沿波的速度", height: "高度",
         with: "顺着", against: "逆着", above: "上方", below: "下方",
         chain: "链", ring: "环", cluster: "团",
