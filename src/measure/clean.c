@@ -10,6 +10,9 @@
 
 #include "base/order.h"
 
+/* Nearer to the model than this part of a radius no place is wild: a computed motion may have no other noise. */
+#define EXACT 1e-9
+
 /* How far a place lies from the line between the seen places before and behind it. */
 static double bulge(const measure_work *work, size_t i)
 {
@@ -95,7 +98,7 @@ size_t measure_reject_far(fst_track *track, const measure_work *work)
     for (size_t i = 0; i < work->count; ++i) {
         off[i] = hypot(work->r_off[i], work->r[i] * work->a_off[i]);
     }
-    const double usual = usual_distance(work, sorted);
+    const double usual = fmax(usual_distance(work, sorted), EXACT * work->radial.coefficient[0]);
     for (size_t i = 0; i < work->count; ++i) {
         /* The median of five neighbours: of a motion that the model lacks they deviate as much. */
         double near[5];

@@ -324,7 +324,8 @@ static void take_radius(const measure_work *work, const turn_sums *turns, const 
     measured->std_r_error =
         waves > 2.0 * spread ? spread / (2.0 * sqrt(waves)) : upper - measured->std_r / factor;
     if (harmonics == 1 && isfinite(spread)) /* no line was found: one of this size would not have been */
-        measured->std_r_error = sqrt(2.0 * square * (log((double)work->count) + 6.9) / (double)work->count);
+        measured->std_r_error = fmax(
+            measured->std_r_error, sqrt(2.0 * square * (log((double)work->count) + 6.9) / (double)work->count));
     measured->std_r_error = sqrt(measured->std_r_error * measured->std_r_error +
                                  measured->std_r * measured->std_r * systematic * systematic);
     if (spread > MOST_HIDDEN * waves && is_any_hidden(work)) {

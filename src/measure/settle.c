@@ -3,7 +3,8 @@
  * While a motion settles, its mean radius, the size and phase of its oscillation and its rate change, ever less. Whether
  * they do in a part of the film is asked by columns more in the models of r and alpha: the mean and the two strongest
  * lines times a shape in time, once slow and once quick.  Where these take off more than chance would, the part begins
- * too early.
+ * too early.  What settles long before the quick shape does, as a bead that locks, shows by what the model of r leaves
+ * over: far more in the beginning than anywhere later.
  */
 #include "measure/work.h"
 
@@ -19,6 +20,9 @@ enum { LINES = 2, SHAPES = 2, PARTS = 16, MOST_PARTS = 12, LEAST_TURNS_LEFT = 4 
 /* Of less noise than this part of a radius the films are not that show a drift: what a model of eight harmonics lacks is
  * as large. */
 #define SMALL 1e-4
+/* A beginning that has so many times what the model leaves over in any part later has not settled; what beats, and
+ * noise, have nearly as much again later. */
+#define LOUD 4.0
 /* Frames in a turn of the bead: with less, multiples of the festoons' rate look like slow ones. */
 #define LEAST_FRAMES 18.0
 
@@ -96,6 +100,20 @@ static double drift(measure_work *work)
                 drift_of(work, drifting_angular_row, work->a_off, work->angular.columns, SMALL));
 }
 
+/* Whether what the model of r leaves over is far greater in the first part of the film than in each other one: the
+ * products of neighbours, to which noise and a single wild place give little. */
+static int begins_loud(const measure_work *work)
+{
+    double sum[PARTS] = {0}, greatest = 0.0;
+    const double small = SMALL * work->radial.coefficient[0];
+    for (size_t i = 0; i + 1 < work->count; ++i)
+        if (measure_neighbours(work, i))
+            sum[i * PARTS / work->count] += work->r_off[i] * work->r_off[i + 1];
+    for (int part = 1; part < PARTS; ++part)
+        greatest = fmax(greatest, fabs(sum[part]));
+    return sum[0] > LOUD * (greatest + small * small * (double)work->count / PARTS);
+}
+
 /* The time of a row, from the film's first one. */
 static double time_of(const measure_work *work, size_t row)
 {
@@ -108,7 +126,8 @@ fst_status measure_settle(measure_work *work, fst_error *error)
     const double whole = measure_duration(work), begin = time_of(work, work->row[0]);
     double least = DRIFTS;
     fst_status status = FST_OK;
-    for (int part = 1; status == FST_OK && drift(work) > least; ++part, least = STILL_DRIFTS) {
+    for (int part = 1; status == FST_OK && (begins_loud(work) || drift(work) > least);
+         ++part, least = STILL_DRIFTS) {
         const double from = whole * part / PARTS;
         if (part > MOST_PARTS || (whole - from) * fabs(work->bead) < LEAST_TURNS_LEFT) {
             work->drifts = 1;

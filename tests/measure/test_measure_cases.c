@@ -520,6 +520,64 @@ static void test_locked(void **state)
     }
 }
 
+/* A motion from its start, almost without noise, at each usual rate: a bead that locks or librates has settled long
+ * before a film of it ends, and what comes before is left out. */
+static void test_locking(void **state)
+{
+    (void)state;
+    static const double drives[] = {3.0, 8.5}, rates[] = {60.0, 120.0, 240.0};
+    for (int i = 0; i < 6; ++i) {
+        fst_params params = fst_default_params();
+        made_motion settled = motion_at(drives[i % 2], 1.0), motion;
+        made_film film = made_film_plain();
+        fst_track track;
+        params.drive_frequency = drives[i % 2];
+        params.run_periods = 41.0 * drives[i % 2];
+        params.run_discard = 0.0;
+        made_motion_follow(&motion, &params);
+        film.seconds = 40.0;
+        film.noise = 0.001;
+        film.fps = rates[i / 2];
+        const fst_measurement m = measured(&motion, &film, motion.drive, NAN, &track);
+        assert_near(m.mean_r, m.mean_r_error, film.scale * settled.mean_r);
+        assert_near(m.std_r, m.std_r_error, film.scale * settled.std_r);
+        assert_true(m.settled_after_s > 1.0 && m.settled_after_s < 10.0 && m.rejected == 0);
+        fst_track_free(&track);
+        made_motion_free(&motion);
+        made_motion_free(&settled);
+    }
+}
+
+/* A bead that is locked, and is pushed once: r changes without an oscillation, and one push says little of others. */
+static void test_pushed(void **state)
+{
+    (void)state;
+    made_motion motion = motion_at(3.0, 20.0);
+    made_film film = made_film_plain();
+    fst_track track;
+    fst_measure_options options = fst_default_measure_options();
+    fst_error error;
+    film.seconds = 20.0;
+    film.fps = 60.0;
+    film.noise = 0.0;
+    fst_measurement m = measured(&motion, &film, motion.drive, NAN, &track);
+    assert_int_equal(m.rejected, 0); /* rounding errors are no wild places */
+    fst_track_free(&track);
+    film.noise = 0.1;
+    m = measured(&motion, &film, motion.drive, NAN, &track);
+    for (int k = -80; k <= 80; ++k) {
+        const size_t at = track.rows / 2 + (size_t)(k + 80);
+        const double push = 0.02 * exp(-k * k / 800.0);
+        track.x[at] += push * (track.x[at] - m.centre[0]);
+        track.y[at] += push * (track.y[at] - m.centre[1]);
+    }
+    options.drive = motion.drive;
+    assert_int_equal(fst_measure_track(&track, &options, &m, &error), FST_OK);
+    assert_true(m.std_r > 1e-3 * m.mean_r && m.std_r < 4.0 * m.std_r_error);
+    fst_track_free(&track);
+    made_motion_free(&motion);
+}
+
 /* Of films of locked beads, with every fault that a film may have, none has festoons. */
 static void test_50_locked_films(void **state)
 {
@@ -603,6 +661,8 @@ int main(void)
         cmocka_unit_test(test_tilt),
         cmocka_unit_test(test_faults),
         cmocka_unit_test(test_locked),
+        cmocka_unit_test(test_locking),
+        cmocka_unit_test(test_pushed),
         cmocka_unit_test(test_50_locked_films),
         cmocka_unit_test(test_interruption),
         cmocka_unit_test(test_20_films),
