@@ -214,6 +214,8 @@ static fst_status go_on(run *r, double limit, fst_error *error)
         status = go(r, limit, error);
         seen = see(r);
         beads_follow(&seen, r->centres, seen.time - from, &r->groups);
+        if (r->at[1].time > 0)
+            beads_follow_swings(&seen, r->at);
         r->bond_count = beads_keep_bonds(&r->world, seen.gone, seen.y, r->bonds, r->bond_count);
         if (status == FST_OK)
             status = tell_samples(r, from, seen.time, error);

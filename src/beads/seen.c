@@ -30,9 +30,14 @@ static const double AT_REST = 1e-6; /* speed in the turning frame below which a 
  * is rounding, over omega. */
 static const double ONE_WAY = 2.5, ROUNDING = 1e-9;
 
-/* Numbers of a group that are followed, and of a bead in a moment. */
+/* A limit of the error of a mean, over the swings of what it is the rate of in the window's time: swings, of which the ends
+ * of the window may cut off the whole, or a walk of chance, which strays in a time by about as much as it swings. */
+static const double SWINGS = 2.0;
+
+/* Numbers of a group that are followed, of a bead in a moment, and of its swings. */
 enum { TURNED, CENTRE_R, AXIS, OF_GROUP };
 enum { R, LOAD, ANGLE, X, OF_BEAD };
+enum { LEAST_R, GREATEST_R, LEAST_ANGLE, GREATEST_ANGLE, OF_SWING };
 
 const char *fst_bead_event_name(fst_bead_event_kind kind)
 {
@@ -63,7 +68,7 @@ fst_status beads_make_room(int count, beads_groups *groups, beads_moment moments
     groups->numbers = calloc(n * OF_GROUP, sizeof *groups->numbers);
     int whole = groups->members && groups->group && groups->numbers;
     for (int i = 0; i < 3; ++i) {
-        moments[i].numbers = calloc(n * (OF_BEAD + OF_GROUP), sizeof *moments[i].numbers);
+        moments[i].numbers = calloc(n * (OF_BEAD + OF_GROUP + OF_SWING), sizeof *moments[i].numbers);
         whole = whole && moments[i].numbers;
     }
     return whole ? FST_OK : fst_fail(error, FST_NO_MEMORY, "beads", "out of memory for %d beads", count);
@@ -161,6 +166,33 @@ static double circled(const beads_world *world, int n, const beads_moment *from,
            mean_rate(n, from, to, ANGLE, i);
 }
 
+void beads_follow_swings(const beads_seen *seen, beads_moment at[3])
+{
+    const int n = seen->world->count;
+    const beads_moment *from = &at[0], *middle = &at[1];
+    const double passed = seen->time - middle->time,
+                 turned = frame_turned(seen->world, middle->time, seen->time);
+    for (int i = 0; i < n; ++i) {
+        double *swing = middle->numbers + n * (OF_BEAD + OF_GROUP) + OF_SWING * i;
+        const double r = seen->r[i] - middle->numbers[n * R + i] - passed * mean_rate(n, from, middle, R, i);
+        const double angle = turned + seen->turned[i] - middle->numbers[n * ANGLE + i] -
+                             passed * circled(seen->world, n, from, middle, i);
+        swing[LEAST_R] = fmin(swing[LEAST_R], r);
+        swing[GREATEST_R] = fmax(swing[GREATEST_R], r);
+        swing[LEAST_ANGLE] = fmin(swing[LEAST_ANGLE], angle);
+        swing[GREATEST_ANGLE] = fmax(swing[GREATEST_ANGLE], angle);
+    }
+}
+
+/* The limits of the errors of a bead's mean r and rate; the window may have ended before its middle. */
+static void tell_errors(int n, const beads_moment at[3], int i, fst_bead_result *bead)
+{
+    const double *swing = at[1].numbers + n * (OF_BEAD + OF_GROUP) + OF_SWING * i;
+    const double part = at[2].time > at[1].time ? SWINGS / (at[2].time - at[0].time) : NAN;
+    bead->mean_r_error = part * (swing[GREATEST_R] - swing[LEAST_R]);
+    bead->mean_alpha_dot_error = part * (swing[GREATEST_ANGLE] - swing[LEAST_ANGLE]);
+}
+
 /* `apart`: by how much the mean rates of the window's halves differ. */
 static fst_regime regime_of(const beads_seen *seen, int i, double mean_alpha_dot, double apart)
 {
@@ -221,9 +253,10 @@ static void tell_beads(const beads_seen *seen, const beads_moment at[3], fst_bea
         bead->mean_velocity = is_in_wave(seen->world) ? mean_rate(n, from, to, X, i) : NAN;
         bead->mean_velocity_error =
             STUDENT * fabs(mean_rate(n, &at[1], to, X, i) - mean_rate(n, from, &at[1], X, i));
+        tell_errors(n, at, i, bead);
         if (seen->gone[i])
-            bead->mean_r = bead->mean_alpha_dot = bead->mean_load_weights = bead->mean_height =
-                bead->mean_velocity = NAN;
+            bead->mean_r = bead->mean_alpha_dot = bead->mean_r_error = bead->mean_alpha_dot_error =
+                bead->mean_load_weights = bead->mean_height = bead->mean_velocity = NAN;
         if (isnan(bead->mean_velocity))
             bead->mean_velocity_error = NAN;
         memcpy(bead->final_state, seen->y + FST_BEAD_NUMBERS * i, sizeof bead->final_state);

@@ -26,7 +26,9 @@ typedef struct beads_groups {
 /* The same numbers at a moment, kept. */
 typedef struct beads_moment {
     double time, impacts, work[BEADS_R];
-    double *numbers; /* of each bead: r, load, turned, x; behind these those of the groups */
+    double
+        *numbers; /* of each bead: r, load, turned, x; behind these those of the groups; of the middle then the
+                        swings after it */
 } beads_moment;
 
 /* Room for what is told of `count` beads.  FST_NO_MEMORY; free it in either case. */
@@ -41,6 +43,10 @@ enum { BEADS_CENTRE = 6 }; /* numbers of each: x, y, r, dr/dt, and the axis in t
 void beads_follow(const beads_seen *seen, const double *before, double h, beads_groups *groups);
 
 void beads_keep(const beads_seen *seen, const beads_groups *groups, beads_moment *moment);
+
+/* Behind the middle of the window, after each step: how far r and angle swing about their ways at the mean rates of its
+ * first half. */
+void beads_follow_swings(const beads_seen *seen, beads_moment at[3]);
 
 /* Tell beads, groups and powers of the window, and decide what it is.  The groups of the result are found. */
 void beads_conclude(const beads_seen *seen, const beads_groups *groups, const beads_moment at[3],

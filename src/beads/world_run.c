@@ -135,6 +135,8 @@ static void fill(const fst_params *params, const fst_groups *g, const fst_surrou
     run->frequency_hz = g->omega / (FST_TWO_PI * g->time_unit);
     run->mean_r = bead->mean_r;
     run->mean_alpha_dot = bead->mean_alpha_dot;
+    run->mean_r_error = bead->mean_r_error + params->run_rtol * bead->mean_r;
+    run->mean_alpha_dot_error = bead->mean_alpha_dot_error + params->run_rtol * fabs(bead->mean_alpha_dot);
     run->mean_load_weights = bead->mean_load_weights;
     run->mean_friction_power = beads->plate_power;
     run->mean_drive_power = beads->drive_power;

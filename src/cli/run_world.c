@@ -57,8 +57,10 @@ static void print_world(const fst_params *params, const fst_world_result *result
                       run->window_periods);
     (void)fprintf(out, "\n");
     print_line(p, "mean distance from the axis", run->mean_r, "mean_r", "l");
+    print_line(p, "limit of its error", run->mean_r_error, "mean_r_error", "l");
     print_line(p, "mean height", result->mean_height, "mean_height", "l");
     print_line(p, "bead's circling <alpha'>", run->mean_alpha_dot, "mean_alpha_dot", "gamma");
+    print_line(p, "limit of its error", run->mean_alpha_dot_error, "mean_alpha_dot_error", "gamma");
     print_line(p, "mean velocity along the wave", result->mean_velocity, "mean_velocity", "l gamma");
     print_line(p, "limit of its error", result->mean_velocity_error, "mean_velocity_error", "l gamma");
     print_line(p, "load on the plate", run->mean_load_weights, "mean_load_weights", "weights");
