@@ -84,7 +84,7 @@ typedef struct fst_beads_paradox {
 /* One bead in the window of the means. */
 typedef struct fst_bead_result {
     fst_regime regime;
-    double mean_r, mean_alpha_dot;
+    double mean_r, mean_alpha_dot; /* NAN: the bead is gone; the rate also of one that ends on the axis */
     double mean_r_error, mean_alpha_dot_error; /* limits of their errors, by how the bead swings */
     double mean_load_weights; /* load on the plate over the bead's weight; NAN without gravity or plate */
     double mean_height;       /* over the magnet's reference plane, without a plate; else NAN */

@@ -29,6 +29,8 @@ static const double AT_REST = 1e-6; /* speed in the turning frame below which a 
 /* Mean rates of the window's halves that differ by more than <alpha'> over this leave the sense open; so does a rate that
  * is rounding, over omega. */
 static const double ONE_WAY = 2.5, ROUNDING = 1e-9;
+/* A centre nearer than this part of its radius is on the axis, about which it then has no angle. */
+static const double ON_AXIS = 1e-9;
 
 /* A limit of the error of a mean, over the swings of what it is the rate of in the window's time: swings, of which the ends
  * of the window may cut off the whole, or a walk of chance, which strays in a time by about as much as it swings. */
@@ -193,6 +195,13 @@ static void tell_errors(int n, const beads_moment at[3], int i, fst_bead_result 
     bead->mean_alpha_dot_error = part * (swing[GREATEST_ANGLE] - swing[LEAST_ANGLE]);
 }
 
+/* Whether bead i ends on the axis. */
+static int is_on_axis(const beads_seen *seen, int i)
+{
+    const double *bead = seen->y + FST_BEAD_NUMBERS * i;
+    return hypot(bead[0], bead[1]) < ON_AXIS * seen->world->body[i].radius;
+}
+
 /* `apart`: by how much the mean rates of the window's halves differ. */
 static fst_regime regime_of(const beads_seen *seen, int i, double mean_alpha_dot, double apart)
 {
@@ -207,6 +216,8 @@ static fst_regime regime_of(const beads_seen *seen, int i, double mean_alpha_dot
         return FST_REGIME_LEVITATING;
     if (seen->world->surrounded && seen->world->around.drive.kind != FST_WAVEFORM_STEADY)
         return FST_REGIME_UNDECIDED; /* words for motions beside a magnet that turns steadily */
+    if (is_on_axis(seen, i))
+        return !seen->world->surrounded && hypot(u, v) < AT_REST ? FST_REGIME_LOCKED : FST_REGIME_UNDECIDED;
     if (fabs(mean_alpha_dot - omega) < WITH_MAGNET * omega)
         return hypot(u, v) < AT_REST ? FST_REGIME_LOCKED : FST_REGIME_LIBRATING;
     if (!(fabs(mean_alpha_dot) > ONE_WAY * apart + ROUNDING * omega))
@@ -257,6 +268,8 @@ static void tell_beads(const beads_seen *seen, const beads_moment at[3], fst_bea
         if (seen->gone[i])
             bead->mean_r = bead->mean_alpha_dot = bead->mean_r_error = bead->mean_alpha_dot_error =
                 bead->mean_load_weights = bead->mean_height = bead->mean_velocity = NAN;
+        if (is_on_axis(seen, i))
+            bead->mean_alpha_dot = bead->mean_alpha_dot_error = NAN;
         if (isnan(bead->mean_velocity))
             bead->mean_velocity_error = NAN;
         memcpy(bead->final_state, seen->y + FST_BEAD_NUMBERS * i, sizeof bead->final_state);

@@ -59,14 +59,14 @@ static int is_driven(const fst_params *params)
     return moving || params->drive_waveform == FST_WAVEFORM_WAVE;
 }
 
-/* A bead over a plate of whose motion no other word tells: it rests, keeps its side of the axis, or circles. */
+/* A bead over a plate of whose motion no other word tells: it rests, on the axis too, keeps its side of it, or circles. */
 static void tell_undecided(const fst_bead_result *bead, const fst_params *params, const fst_groups *g,
                            fst_run_result *run)
 {
     const double *v = bead->final_state + 3, mm = 1e3 * g->length_unit;
-    const int stays = fabs(bead->mean_alpha_dot) < AT_REST * g->omega;
+    const int stays = !(fabs(bead->mean_alpha_dot) >= AT_REST * g->omega);
     const double speed = fmax(fmax(fabs(v[0]), fabs(v[1])), fabs(v[2]));
-    run->regime = FST_REGIME_UNDECIDED;
+    run->regime = bead->regime == FST_REGIME_LOCKED ? FST_REGIME_LOCKED : FST_REGIME_UNDECIDED;
     if (stays)
         (void)snprintf(run->reason, sizeof run->reason,
                        speed < AT_REST ? "the bead rests in the laboratory, %.4g mm from the axis"
@@ -116,13 +116,17 @@ static void give_reason(const fst_beads_result *beads, const fst_params *params,
         (void)snprintf(run->reason, room,
                        "its velocity is that of no lock: on average %.5g mm/s along the wave",
                        bead->mean_velocity * mm / seconds);
-    else if (bead->regime == FST_REGIME_UNDECIDED ||
+    else if (bead->regime == FST_REGIME_UNDECIDED || isnan(bead->mean_alpha_dot) ||
              (!is_driven(params) &&
               (bead->regime == FST_REGIME_COUNTER_ROTATING || bead->regime == FST_REGIME_COROTATING)))
         tell_undecided(bead, params, g, run);
-    else
+    else {
+        const double lag =
+            beads->omega - bead->mean_alpha_dot; /* of a bead that swings with the magnet: chance */
+        const int with = bead->regime == FST_REGIME_LIBRATING && fabs(lag) <= bead->mean_alpha_dot_error;
         (void)snprintf(run->reason, room, "the bead circles at %.4g of the drive's rate",
-                       bead->mean_alpha_dot / beads->omega);
+                       with ? 1.0 : bead->mean_alpha_dot / beads->omega);
+    }
 }
 
 static void fill(const fst_params *params, const fst_groups *g, const fst_surroundings *around,

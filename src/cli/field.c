@@ -71,7 +71,8 @@ static void print_errors(FILE *out, const fst_model *model, const double at[2], 
                       slope * grad[i][1], slope * grad[i][2]);
 }
 
-static void print_text(FILE *out, const fst_model *model, const double at[2], const char *height,
+/* `whose` height it is, told in mm; NULL: of a bead on the flat plate. */
+static void print_text(FILE *out, const fst_model *model, const double at[2], const char *whose,
                        const char *frame, fst_shown_units units)
 {
     double b[3], grad[3][3];
@@ -91,8 +92,9 @@ static void print_text(FILE *out, const fst_model *model, const double at[2], co
     }
     (void)fprintf(out, "at X = %g, Y = %g l (%g mm, %g mm), %s, at the height ", at[0], at[1], mm * at[0],
                   mm * at[1], frame);
-    if (height)
-        (void)fprintf(out, "of %g mm over the magnet's %s\n", mm * groups.h,
+    if (whose)
+        (void)fprintf(out, "of %s%g mm over the magnet's %s\n", whose,
+                      mm * fst_field_height(model, at[0], at[1]),
                       groups.shape == FST_MAGNET_LINES ? "mid-plane" : "reference plane");
     else
         (void)fprintf(out, "of a bead's centre on the plate\n");
@@ -168,6 +170,14 @@ static int is_known(const fst_model *model, const double at[2])
     return isfinite(b[0]);
 }
 
+static const char *why_unknown(const fst_model *model, const double at[2])
+{
+    if (isnan(fst_field_height(model, at[0], at[1])))
+        return "where no bead's centre can be in the bowl: give --height";
+    return fst_model_map(model) ? "beyond the map of magnet.file, where the field is not known"
+                                : "on a wire or a line of the magnet, where the field is not finite";
+}
+
 /* There is no field to tell in or on a part of the magnet. */
 static fst_status check_outside(const fst_params *params, const double at[2], double height, fst_error *error)
 {
@@ -220,27 +230,29 @@ static fst_status print_point(const arguments *given, const fst_params *params, 
     const int surrounded = fst_key_of_surroundings(params) != NULL;
     double at[2] = {0.0, 0.0};
     fst_model *model = NULL;
-    const char *height = option_value(given, "height");
+    const int shape = option_value(given, "height") ? FST_PLATE_NONE : params->plate_shape;
+    const char *whose = shape == FST_PLATE_FLAT   ? NULL
+                        : shape == FST_PLATE_BOWL ? "a bead's centre in the bowl, "
+                                                  : "";
     fst_status status = fst_field_model_new(params, h, &model, error);
     if (status == FST_OK)
         status = read_place(option_value(given, "at"), fst_model_groups(model).length_unit, at, error);
     if (status == FST_OK && !(fabs(at[0]) < farthest && fabs(at[1]) < farthest))
         status = fail(error, FST_BAD_INPUT, "", "--at %g,%g is out of range: up to %g", at[0], at[1], farthest);
-    if (status == FST_OK && option_value(given, "time")) {
-        const double place[3] = {at[0], at[1], fst_model_groups(model).h};
+    if (status == FST_OK && option_value(given, "time") && !isnan(fst_field_height(model, at[0], at[1]))) {
+        const double place[3] = {at[0], at[1], fst_field_height(model, at[0], at[1])};
         fst_model_free(model);
         return print_at_time(given, params, place, units, out, error);
     }
     if (status == FST_OK)
-        status = check_outside(params, at, fst_model_groups(model).h, error);
+        status = check_outside(params, at, fst_field_height(model, at[0], at[1]), error);
     if (status == FST_OK && !is_known(model, at))
-        status = fail(error, FST_BAD_INPUT, "--at",
-                      "%g,%g lies beyond the map of magnet.file, where the field is not known", at[0], at[1]);
+        status = fail(error, FST_BAD_INPUT, "--at", "%g,%g lies %s", at[0], at[1], why_unknown(model, at));
     if (status == FST_OK && option_value(given, "json"))
         status =
             print_and_free(fst_field_json(model, at[0], at[1], surrounded ? FST_SHOWN_SI : units), out, error);
     else if (status == FST_OK)
-        print_text(out, model, at, height, surrounded ? ALL_FIELDS : "magnet's frame", units);
+        print_text(out, model, at, whose, surrounded ? ALL_FIELDS : "magnet's frame", units);
     fst_model_free(model);
     return status;
 }

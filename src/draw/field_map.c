@@ -63,7 +63,7 @@ static int is_of_bead(const survey *s)
 
 static int is_inside(const survey *s, double x, double y)
 {
-    const double l = s->groups.length_unit, place[3] = {l * x, l * y, l * s->groups.h};
+    const double l = s->groups.length_unit, place[3] = {l * x, l * y, l * fst_field_height(s->model, x, y)};
     return s->params->magnet_shape == FST_MAGNET_PARTS && fst_part_touched(s->params, place, 0.0) >= 0;
 }
 
@@ -393,7 +393,7 @@ static int fill(fst_field_picture *picture, survey *s, const fst_field_options *
     put_colours(picture, s);
     if (!put_arrows(picture, s) || !put_magnet(picture, s))
         return 0;
-    put_words(picture, s, !isnan(options->height));
+    put_words(picture, s, !isnan(options->height) || s->params->plate_shape == FST_PLATE_NONE);
     return 1;
 }
 

@@ -405,7 +405,7 @@ char *fst_field_json(const fst_model *model, double x, double y, fst_shown_units
     put_field(&json, b, grad, 1.0, 1.0, "b", "grad");
     if (in_si)
         put_field(&json, b, grad, g.field_unit, g.field_unit / g.length_unit, "b_tesla", "grad_tesla_per_m");
-    fst_json_real(&json, "height", g.h);
+    fst_json_real(&json, "height", fst_field_height(model, x, y));
     put_pull(&json, &g, force, load, (const char *const[]){"force", "load", "force_newtons", "load_newtons"},
              in_si);
     put_errors(&json, model, x, y, in_si);

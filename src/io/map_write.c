@@ -1,6 +1,7 @@
 /* map_write.c - writing a map of a model's field, as map_csv.c reads it. */
 #include <festoon/festoon_tools.h>
 
+#include <math.h>
 #include <stdio.h>
 
 #include "base/error.h"
@@ -72,23 +73,28 @@ fst_status fst_field_map_write(const char *path, const fst_model *model, double 
     if (steps * spacing > g.map_radius * g.length_unit * (1.0 + 1e-9))
         return fst_fail(error, FST_BAD_INPUT, path, "the magnet's own map ends %.6g mm from the axis",
                         1e3 * g.map_radius * g.length_unit);
+    const double edge = steps * spacing / g.length_unit;
+    if (isnan(fst_field_height(model, edge, edge)))
+        return fst_fail(error, FST_BAD_INPUT, path,
+                        "no bead's centre can be %.6g mm from the axis, at the map's corner, in the bowl",
+                        1e3 * hypot(edge, edge) * g.length_unit);
     fst_status status = fst_whole_file_open(&file, path, error);
     if (status != FST_OK)
         return status;
     const int most = (int)steps;
-    const double height = g.h * g.length_unit;
     write_head(file.stream, model);
     for (int j = -most; j <= most && status == FST_OK; ++j) {
         for (int i = -most; i <= most; ++i) {
             double b[3], grad[3][3];
+            const double x = i * spacing / g.length_unit, y = j * spacing / g.length_unit;
+            const double height = fst_field_height(model, x, y) * g.length_unit;
             const double place[3] = {i * milli(spacing), j * milli(spacing), milli(height)};
-            fst_field(model, i * spacing / g.length_unit, j * spacing / g.length_unit, b, grad);
+            fst_field(model, x, y, b, grad);
             for (int k = 0; k < 3; ++k)
                 write_number(file.stream, place[k], ",");
             for (int k = 0; k < 3; ++k)
                 write_number(file.stream, milli(b[k] * g.field_unit), k < 2 ? "," : "");
-            write_errors(file.stream, model, i * spacing / g.length_unit, j * spacing / g.length_unit,
-                         1e3 * g.field_unit, g.field_unit / g.length_unit);
+            write_errors(file.stream, model, x, y, 1e3 * g.field_unit, g.field_unit / g.length_unit);
             (void)fputc('\n', file.stream);
         }
         status = fst_tell(progress, (j + most) / (2.0 * most + 1.0), "writing the map", error);

@@ -33,6 +33,8 @@ fst_status fst_field_model_new(const fst_params *params, double height, fst_mode
         free(made);
         return status;
     }
+    if (isnan(height) && params->plate_shape == FST_PLATE_BOWL && !made->map)
+        made->bowl = params->plate_bowl_radius / made->groups.length_unit - made->groups.eps;
     if (fst_key_of_surroundings(params))
         status = surround(made, error);
     if (status == FST_OK)
@@ -77,9 +79,15 @@ static void write_gradient(const fst_gradient_double *g, double grad[3][3])
     memcpy(grad, all, sizeof all);
 }
 
+double fst_field_height(const fst_model *model, double x, double y)
+{
+    return model->world.height + (model->bowl > 0 ? fst_bowl_rise(model->bowl, hypot(x, y)) : 0.0);
+}
+
 void fst_field(const fst_model *model, double x, double y, double b[3], double grad[3][3])
 {
-    if (!is_known(model, x, y)) {
+    const double height = fst_field_height(model, x, y);
+    if (!is_known(model, x, y) || isnan(height)) {
         for (int i = 0; i < 3; ++i)
             b[i] = grad[i][0] = grad[i][1] = grad[i][2] = NAN;
         return;
@@ -87,10 +95,9 @@ void fst_field(const fst_model *model, double x, double y, double b[3], double g
     fst_gradient_double g;
     double change[3];
     if (model->surroundings)
-        fst_surroundings_field(model->surroundings, 0.0, (const double[]){x, y, model->world.height}, b, &g,
-                               change);
+        fst_surroundings_field(model->surroundings, 0.0, (const double[]){x, y, height}, b, &g, change);
     else
-        fst_field_double(&model->world, x, y, model->world.height, b, &g);
+        fst_field_double(&model->world, x, y, height, b, &g);
     write_gradient(&g, grad);
 }
 

@@ -153,6 +153,7 @@ static fst_status make_model(const fst_params *params, double height, fst_model 
     made->world = fst_make_world_double(&turning, &g);
     made->params = *params;
     made->has_s2 = field_has_s2(params, &made->world, &g);
+    made->bowl = 0.0;
     made->surroundings = NULL;
     made->map = g.shape == FST_MAGNET_GRID ? fst_field_map_share(params->magnet_map) : NULL;
     return FST_OK;

@@ -36,7 +36,7 @@ static fst_status rest_height(const fst_params *params, const fst_groups *g, dou
                         "the bead starts %g l from the axis, but its centre stays within %g l in the bowl "
                         "(plate.bowl_radius)",
                         r, rho);
-    *height = rho - sqrt(rho * rho - r * r);
+    *height = fst_bowl_rise(rho, r);
     return FST_OK;
 }
 

@@ -194,6 +194,35 @@ class Worlds(Case):
                 self.assertNotIn("drive's rate", run["reason"])
                 self.assertLess(abs(run["mean_alpha_dot"]), 1e-4 * run["omega"])
 
+    def test_means_have_errors(self):
+        """A bead on a plate that is all but level, as on a level one: windows cut its swings off anywhere."""
+        for frequency, periods in (("9Hz", 400), ("9Hz", 60), ("8.5Hz", 60), ("10.7Hz", 60)):
+            words = ("run", "--json", "--set", "magnet.depth=8mm", "--set", f"drive.frequency={frequency}")
+            level = json.loads(self.good(*words))
+            run = json.loads(self.good(*words, "--set", "plate.tilt=1e-6deg", "--set", f"run.periods={periods}"))
+            for key in ("mean_r", "mean_alpha_dot"):
+                error = run[key + "_error"]
+                self.assertLess(abs(run[key] - level[key]), error)
+                self.assertLess(error, 4.6 * level["omega"] / periods)  # of a turn or so, not of many
+
+    def test_a_bead_on_the_axis_has_no_rate(self):
+        block = "{kind: cuboid, centre: [0, 0, -5 mm], size: [20 mm, 10 mm, 5 mm], remanence: [0, 0, 1.2 T], motion: fixed}"
+        with open(self.path("axis.yaml"), "w", encoding="utf-8") as scene:
+            scene.write(f"magnet: {{shape: parts, depth: 10 mm, parts: [{block}]}}\nbead: {{mass: 0.5 g, remanence: 1.2 T}}\n"
+                        "start: {position: [5 mm, 2 mm, 2.5 mm], spin: rest}\nrun: {duration: 10 s}\n")
+        run = json.loads(self.good("run", self.path("axis.yaml"), "--json"))
+        self.assertEqual((run["regime"], run["mean_alpha_dot"], run["mean_alpha_dot_error"]), ("undecided", None, None))
+        self.assertIn("rests in the laboratory", run["reason"])
+
+    def test_the_field_in_a_bowl_is_that_at_the_bead(self):
+        there = ("field", self.scene("bowl"), "--at", "20mm,5mm", "--json")
+        bead, rise = json.loads(self.good(*there)), 197.5 - math.sqrt(197.5**2 - 20**2 - 5**2)
+        middle = json.loads(self.good("field", self.scene("bowl"), "--at", "0,0", "--json"))
+        self.assertAlmostEqual(bead["height"] - middle["height"], rise / 23, delta=1e-12)
+        self.assertEqual(json.loads(self.good(*there, "--height", repr(bead["height"]))), bead)
+        self.assertIn("in the bowl", self.refused("field", self.scene("bowl"), "--at", "198mm,0"))
+        self.assertNotIn("on the plate\n", self.good("field", self.scene("levitation"), "--at", "0,0"))
+
     def test_driven(self):
         words = ("--set", "world.frame=laboratory", "--set", "run.discard=1", "--set", "drive.frequency=164", "--set",
                  "start.position[2]=32 mm")
