@@ -8,3 +8,5 @@ export const ARROWS = { moment: "#f2c230", field: "#7fd0ff", friction: "#ff8a5c"
 export const FRICTION = 0.4, LOAD = 0.12;
 /* The colours of several beads, as in figures (FST_COLOURS, style.c), and the dot of two that touch. */
 export const BEADS = ["#009e73", "#cc79a7", "#999933", "#56b4e9", "#e69f00", "#882255", "#ddcc77", "#44aa99"], TOUCH = "#ffffff";
+/* The lines of a track, one for each of its beads. */
+export const trackColours = (beads) => (beads > 1 ? BEADS : ["#ffffff"]);

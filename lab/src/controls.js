@@ -121,6 +121,10 @@ export class Controls {
     take(row, text, from) {
         const wrong = this.changed(row.info.key, row.info.kind === "choice" ? text : plainOf(text));
         write(row.error, wrong || "");
+        if (wrong && row.info.kind === "choice")
+            row.field.value = this.core.get(row.info.key);
+        else if (wrong && from)
+            from.value = String(this.core.value(row.info.key) * row.factor);
         row.field.setAttribute("aria-invalid", wrong ? "true" : "false");
         if (!wrong)
             this.show(from);
@@ -139,7 +143,7 @@ export class Controls {
         hide("friction.mu", floats || this.core.get("friction.law") !== "coulomb");
         for (const [key, row] of this.rows) {
             const { info, unit, factor } = row, value = this.core.value(key), said = this.core.get(key);
-            if (row.field === document.activeElement && row.field.getAttribute("aria-invalid") === "true")
+            if (info.kind !== "choice" && row.field === document.activeElement && row.field.getAttribute("aria-invalid") === "true")
                 continue;
             row.error.textContent = "";
             row.field.setAttribute("aria-invalid", "false");

@@ -157,13 +157,13 @@ export class Files {
             lab.tell([say(news, { name }), doubt && whole(told(doubt))].filter(Boolean).join(" "));
     }
 
-    showTrack({ points, unit }) {
-        const { lab } = this, mean = (list) => list.reduce((sum, value) => sum + value, 0) / Math.max(1, list.length);
+    showTrack({ tracks, unit }) {
+        const { lab } = this, points = tracks.flat(), beads = tracks.length, mean = (list) => list.reduce((sum, value) => sum + value, 0) / Math.max(1, list.length);
         let scale = 1 / lab.units.mm;
         if (unit === "px")
             scale = (mean(lab.trail.samples.map((row) => row[COLUMN.r])) || 0.8) / mean(points.map((p) => Math.hypot(...p)));
-        lab.showTrack(points.map((p) => [p[0] * scale, p[1] * scale]));
+        lab.showTrack(tracks.map((line) => line.map((p) => [p[0] * scale, p[1] * scale])));
         lab.panels.chooseCamera("above");
-        lab.tell(`${say(T.trackShown, { n: points.length })}${unit === "px" ? ` ${T.trackInPixels}` : ""}`);
+        lab.tell(`${say(beads > 1 ? T.tracksShown : T.trackShown, { n: points.length, beads })}${unit === "px" ? ` ${T.trackInPixels}` : ""}`);
     }
 }

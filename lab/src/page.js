@@ -9,7 +9,7 @@ import { Pace } from "./pace.js";
 import { Recording } from "./recording.js";
 import { whole, write } from "./said.js";
 import { PRESETS } from "./scenes.js";
-import { readAddress, takeGood, writeAddress } from "./state.js";
+import { fitted, readAddress, takeGood, writeAddress } from "./state.js";
 import { languageOf, say, speak, T } from "./texts.js";
 import { QUANTITIES, SPACING, Trail, unitsOf } from "./trail.js";
 import { recordingOf } from "./trajectory.js";
@@ -92,9 +92,10 @@ export class Lab {
         this.draw(); /* at once: the new size has emptied the canvas */
     }
 
-    showTrack(points) {
-        this.track = points;
-        this.view.showTrack(points);
+    /* Lines of places, one of each bead of a track, or null. */
+    showTrack(tracks) {
+        this.track = tracks;
+        this.view.showTrack(tracks ?? []);
         this.wake();
     }
 
@@ -200,7 +201,7 @@ export class Lab {
         }
         if (key === "magnet.shape")
             return this.changeTo(text === "grid" ? withMap(scene, [...this.pool.maps.values()].at(-1)) : withoutMap(scene), key);
-        return this.changeTo(scene, key);
+        return this.changeTo(info.kind === "choice" ? fitted(scene, key, (some) => this.core.setScene(some)) : scene, key);
     }
 
     /* A scene from an address whose map nobody has dropped yet waits for it; until then it goes without. */

@@ -2,7 +2,7 @@
  * becomes values and plain text, never markup. */
 
 import { CAMERAS } from "./camera.js";
-import { ARROWS } from "./colours.js";
+import { ARROWS, BEADS } from "./colours.js";
 import { LANGUAGES, say, T, Told } from "./texts.js";
 import { QUANTITIES } from "./trail.js";
 
@@ -13,7 +13,7 @@ const VIEW = {
     "ui.arrows": (text) => text.split(",").every(isOf(ARROWS)), "ui.ramp": isNumber, "ui.settle": isNumber, "ui.step": isNumber,
     "ui.lang": isOf(LANGUAGES),
 };
-const LONGEST = 200, FARTHEST = 1e9;
+const LONGEST = 200, FARTHEST = 1e9, DISC = "0.1 mm";
 const MILLIMETRES = new Map([["mm", 1], ["cm", 10], ["m", 1000], ["px", null]]);
 
 /* The part of an address behind "#": scene and view, the keys that nobody knows, and words of the view that say nothing. */
@@ -49,6 +49,24 @@ export function takeGood(scene, take) {
             if (!bad)
                 return { scene: good, errors };
             bad.forEach((key) => delete good[key]);
+        }
+}
+
+/* A scene after a choice, with what the choice needs and without what has no effect beside it, so that one step makes it:
+ * a disc of contact has a size, which a point must not have.  What else is refused is returned as it is. */
+export function fitted(scene, key, take) {
+    const fit = { ...scene };
+    for (;;)
+        try {
+            take(fit);
+            return fit;
+        } catch ({ where, message }) {
+            if (where === "contact.patch" && fit[where] === "hertz" && !Object.hasOwn(fit, "contact.radius"))
+                fit["contact.radius"] = DISC;
+            else if (where !== key && Object.hasOwn(fit, where) && message.includes("has no effect"))
+                delete fit[where];
+            else
+                return scene;
         }
 }
 
@@ -163,20 +181,20 @@ export function cellsBy(names) {
     });
 }
 
-/* A track as `festoon track` writes it, or any table with columns x and y: places in mm about their centre. */
+/* A track as `festoon track` writes it, or any table with columns x and y: places in mm about their centre, of each bead
+ * that the column track names. */
 export function readTrack(text) {
     const lines = text.replace(/^\uFEFF/, "").split(/\r?\n/).map((line, index) => ({ line, number: index + 1 }))
         .filter(({ line }) => /[^\s;]/.test(line) && !/^"?#/.test(line));
     const names = lines[0]?.line || "", cells = cellsBy(names);
     const heads = cells(names).map((head) => /^(.*?)\s*(?:\[(.*)\])?$/.exec(head.slice(0, LONGEST)));
     const column = (name) => heads.findIndex((head) => head && head[1].toLowerCase() === name);
-    const x = column("x"), y = column("y");
+    const x = column("x"), y = column("y"), name = column("track"), tracks = new Map();
     if (x < 0 || y < 0)
         throw new Told(say(T.bad.columns, { line: lines[0]?.number || 1 }));
     const unit = heads[x][2] || "px", factor = MILLIMETRES.get(unit);
     if (factor === undefined)
         throw new Told(say(T.bad.unit, { line: lines[0].number, unit: unit.slice(0, 20) }));
-    const points = [];
     lines.slice(1).forEach(({ line, number }) => {
         const row = cells(line);
         if (!row[x] || !row[y])
@@ -184,22 +202,30 @@ export function readTrack(text) {
         const point = [Number(row[x]), Number(row[y])];
         if (!point.every((value) => Math.abs(value) <= FARTHEST))
             throw new Told(say(T.bad.number, { line: number, most: FARTHEST }));
+        const bead = row[name] ?? "", points = tracks.get(bead) ?? [];
+        if (tracks.set(bead, points).size > BEADS.length)
+            throw new Told(say(T.bad.beads, { line: number, most: BEADS.length }));
         points.push(point);
     });
-    if (points.length < 3)
+    const lists = [...tracks.values()];
+    if (lists.flat().length < 3)
         throw new Told(T.bad.few);
-    if (points.every((p) => p[0] === points[0][0] && p[1] === points[0][1]))
+    if (lists.every((points) => points.every((p) => p[0] === points[0][0] && p[1] === points[0][1])))
         throw new Told(T.bad.same);
-    return { points: centred(points, factor || 1), unit: factor ? "mm" : "px" };
+    return { tracks: centred(lists, factor || 1), unit: factor ? "mm" : "px" };
 }
 
-/* About the centre of the circle that fits best (least squares of x^2 + y^2 = 2 a x + 2 b y + c). */
-function centred(points, factor) {
-    const mean = (pick) => points.reduce((sum, p) => sum + pick(p), 0) / points.length;
-    const mx = mean((p) => p[0]), my = mean((p) => p[1]);
-    const u = (p) => p[0] - mx, v = (p) => p[1] - my, s = (p) => u(p) ** 2 + v(p) ** 2;
-    const uu = mean((p) => u(p) ** 2), vv = mean((p) => v(p) ** 2), uv = mean((p) => u(p) * v(p));
-    const us = mean((p) => u(p) * s(p)) / 2, vs = mean((p) => v(p) * s(p)) / 2, det = uu * vv - uv * uv;
-    const [a, b] = det > 1e-12 * (uu + vv) ** 2 ? [(us * vv - vs * uv) / det, (vs * uu - us * uv) / det] : [0, 0];
-    return points.map((p) => [factor * (u(p) - a), factor * (v(p) - b)]);
+/* About the common centre of the circles that fit best, one of each list (least squares of x^2 + y^2 = 2 a x + 2 b y + c,
+ * where each list has its own c). */
+function centred(lists, factor) {
+    const mean = (points, pick) => points.reduce((sum, p) => sum + pick(p), 0) / points.length, all = lists.flat();
+    const mx = mean(all, (p) => p[0]), my = mean(all, (p) => p[1]);
+    const places = lists.map((points) => points.map(([x, y]) => [x - mx, y - my, (x - mx) ** 2 + (y - my) ** 2]));
+    const rows = places.flatMap((points) => {
+        const own = [0, 1, 2].map((k) => mean(points, (p) => p[k]));
+        return points.map((p) => p.map((value, k) => value - own[k]));
+    });
+    const [uu, vv, uv, us, vs] = [[0, 0], [1, 1], [0, 1], [0, 2], [1, 2]].map(([i, k]) => mean(rows, (p) => p[i] * p[k])), det = uu * vv - uv * uv;
+    const [a, b] = det > 1e-12 * (uu + vv) ** 2 ? [(us * vv - vs * uv) / (2 * det), (vs * uu - us * uv) / (2 * det)] : [0, 0];
+    return places.map((points) => points.map((p) => [factor * (p[0] - a), factor * (p[1] - b)]));
 }

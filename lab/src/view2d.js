@@ -2,13 +2,13 @@
 import { COLUMN } from "./core.js";
 import { magnetisation, pictureOf } from "./magnet.js";
 import { PALETTE } from "./trail.js";
-import { ARROWS, FRICTION, GROUND, NORTH, SOUTH, TOUCH } from "./colours.js";
+import { ARROWS, FRICTION, GROUND, NORTH, SOUTH, TOUCH, trackColours } from "./colours.js";
 
 export class View2D {
     constructor(canvas) {
         this.canvas = canvas;
         this.pen = canvas.getContext("2d");
-        this.points = null;
+        this.tracks = [];
         this.back = GROUND.screen;
     }
 
@@ -21,8 +21,8 @@ export class View2D {
         this.map = setup.map && pictureOf(setup.map);
     }
 
-    showTrack(points) {
-        this.points = points;
+    showTrack(tracks) {
+        this.tracks = tracks;
     }
 
     resize(width, height, ratio) {
@@ -105,12 +105,12 @@ export class View2D {
             this.circle(0, 0, i * setup.ring).stroke();
         if (setup.plate !== "none")
             this.circle(0, 0, setup.plateRadius).stroke();
-        if (this.points) {
-            pen.strokeStyle = "#ffffff";
+        this.tracks.forEach((points, i) => {
+            pen.strokeStyle = trackColours(this.tracks.length)[i];
             pen.beginPath();
-            this.points.forEach((p) => pen.lineTo(p[0], p[1]));
+            points.forEach((p) => pen.lineTo(p[0], p[1]));
             pen.stroke();
-        }
+        });
     }
 
     circle(x, y, radius) {

@@ -6,7 +6,7 @@ import {
     BoxGeometry,
 } from "three";
 import { COLUMN } from "./core.js";
-import { ARROWS, FRICTION, GROUND, LOAD, NORTH, SOUTH, TOUCH } from "./colours.js";
+import { ARROWS, FRICTION, GROUND, LOAD, NORTH, SOUTH, TOUCH, trackColours } from "./colours.js";
 import { pictureOf } from "./magnet.js";
 import { PALETTE } from "./trail.js";
 
@@ -188,10 +188,7 @@ export class View3D {
         this.shade = new MeshBasicMaterial({ map: shadowTexture(), transparent: true, depthWrite: false });
         this.beads = [];
         this.dots = [];
-        this.track = new Ribbon(TRACK_ROOM);
-        this.track.mesh.visible = false;
-        this.track.mesh.renderOrder = 2;
-        this.scene.add(this.track.mesh);
+        this.tracks = [];
         this.arrows = Object.fromEntries(Object.entries(ARROWS).map(([name, colour]) => [name, new Arrow(colour)]));
         for (const arrow of Object.values(this.arrows))
             this.scene.add(arrow.group);
@@ -287,12 +284,21 @@ export class View3D {
         this.setup = setup;
     }
 
-    showTrack(points) {
-        this.track.mesh.visible = Boolean(points);
-        if (!points)
-            return;
-        const every = Math.ceil(points.length / TRACK_ROOM); /* a long track is drawn by fewer of its places */
-        this.track.fill(Math.ceil(points.length / every), (i) => points[i * every], () => [1, 1, 1], 0.006);
+    showTrack(tracks) {
+        while (this.tracks.length < tracks.length) {
+            const ribbon = new Ribbon(TRACK_ROOM);
+            ribbon.mesh.renderOrder = 2;
+            this.scene.add(ribbon.mesh);
+            this.tracks.push(ribbon);
+        }
+        this.tracks.forEach((ribbon, k) => {
+            const points = tracks[k] ?? [], every = Math.ceil(points.length / TRACK_ROOM); /* a long track is drawn by fewer of its places */
+            ribbon.mesh.visible = k < tracks.length;
+            if (!ribbon.mesh.visible)
+                return;
+            const colour = new Color(trackColours(tracks.length)[k]).toArray();
+            ribbon.fill(Math.ceil(points.length / every), (i) => points[i * every], () => colour, 0.006);
+        });
     }
 
     resize(width, height, ratio) {

@@ -463,6 +463,18 @@ const tests = {
             await close(page);
         }
     },
+    async "a disc of contact is chosen in one step, with a size, and a list shows what the scene has"() {
+        const page = await open("#v=1&friction.law=coulomb"), shown = () => page.evaluate(() => [["contact-patch", "value"], ["contact-radius", "value"], ["contact-patch-error", "textContent"], ["magnet-shape", "value"]].map(([id, what]) => document.getElementById(`p-${id}`)[what]));
+        await page.select("#p-contact-patch", "hertz");
+        assert.deepEqual(await shown(), ["hertz", "0.1 mm", "", "lines"]);
+        assert.match(await page.evaluate(() => location.hash), /contact\.patch=hertz&contact\.radius=0\.1\+mm/);
+        await page.select("#p-contact-patch", "point");
+        assert.deepEqual(await shown(), ["point", "", "", "lines"]);
+        await page.select("#p-magnet-shape", "parts");
+        assert.deepEqual(await shown(), ["point", "", "", "lines"], "refused: there are none");
+        assert.match(await page.$eval("#p-magnet-shape-error", (error) => error.textContent), /list them in magnet\.parts/);
+        await close(page);
+    },
     async "dropped files: a scene, a track, and hostile ones as text alone"() {
         const page = await open();
         const drop = (name, text) => page.evaluate(async (n, t) => {
@@ -481,6 +493,15 @@ const tests = {
         const track = `frame,t [s],x [mm],y [mm]\n${Array.from({ length: 90 }, (_, i) => `${i},${i / 30},${18 * Math.cos(i / 9)},${18 * Math.sin(i / 9)}`).join("\n")}\n`;
         assert.match((await drop("track.csv", track))[0], /90 places/);
         await picture(page, "wide-track");
+        const pair = `frame,t [s],x [mm],y [mm],track,doubts\n${Array.from({ length: 90 }, (_, i) => [1, -1].map((side, k) => `${i},${i / 30},${side * 18 * Math.cos(i / 30)},${side * 18 * Math.sin(i / 30)},${k + 1},0`).join("\n")).join("\n")}\n`;
+        assert.match((await drop("pair.csv", pair))[0], /^180 places of the track of 2 beads/);
+        await picture(page, "wide-track-of-two");
+        assert.deepEqual(await page.evaluate(() => {
+            const { track, view } = window.festoonLab.lab, longest = track.map((line) => Math.max(...line.slice(1).map((p, i) => Math.hypot(p[0] - line[i][0], p[1] - line[i][1]))));
+            return [track.length, longest.every((step) => step < 0.1), new Set(view.tracks.map(({ colours }) => colours.slice(0, 3).join())).size];
+        }), [2, true, 2], "no line from bead to bead, and two colours");
+        await drop("track.csv", track);
+        assert.deepEqual(await page.evaluate(() => window.festoonLab.lab.view.tracks.map(({ mesh }) => mesh.visible)), [true, false]);
         const before = await state();
         assert.match((await drop("bead.webm", "x"))[0], /^bead\.webm: this is a film; festoon track/);
         assert.match((await drop("bead.png", "\x89PNG\r\n\0\0\0"))[0], /^bead\.png: this is not text: scenes, tables/);

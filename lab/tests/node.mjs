@@ -15,7 +15,7 @@ import { ticks } from "../src/plots.js";
 import { coarseFirst, Pool } from "../src/pool.js";
 import { Recording } from "../src/recording.js";
 import { readTrajectory, recordingOf } from "../src/trajectory.js";
-import { readAddress, readScene, readTrack, takeGood, writeAddress, writeScene } from "../src/state.js";
+import { readAddress, readScene, fitted, readTrack, takeGood, writeAddress, writeScene } from "../src/state.js";
 import { regimeSentence } from "../src/panels.js";
 import { LESSON, PRESETS } from "../src/scenes.js";
 import { inUnits, told } from "../src/said.js";
@@ -334,11 +334,11 @@ const scripts = {
     },
     "a track is read about the centre of its circle, and a bad one is refused by line"() {
         const places = Array.from({ length: 50 }, (_, i) => [7 + 20 * Math.cos(i), -3 + 20 * Math.sin(i)]);
-        const { points, unit } = readTrack(`frame,t [s],x [mm],y [mm]\n${places.map((p, i) => `${i},${i / 10},${p[0]},${p[1]}`).join("\n")}\n`);
+        const { tracks: [points], unit } = readTrack(`frame,t [s],x [mm],y [mm]\n${places.map((p, i) => `${i},${i / 10},${p[0]},${p[1]}`).join("\n")}\n`);
         assert.equal(unit, "mm");
         points.forEach((p) => assert.ok(Math.abs(Math.hypot(...p) - 20) < 1e-9));
         for (const [word, per] of [["mm", 1], ["cm", 10], ["m", 1000]])
-            readTrack(`x [${word}],y [${word}]\n${places.map((p) => `${p[0] / per},${p[1] / per}`).join("\n")}\n`).points.forEach((p) =>
+            readTrack(`x [${word}],y [${word}]\n${places.map((p) => `${p[0] / per},${p[1] / per}`).join("\n")}\n`).tracks[0].forEach((p) =>
                 assert.ok(Math.abs(Math.hypot(...p) - 20) < 1e-9, word));
         assert.throws(() => readTrack("a,b\n1,2\n"), /line 1/);
         assert.throws(() => readTrack("x [mm],y [mm]\n1,2\n3,oops\n"), /line 3/);
@@ -348,6 +348,16 @@ const scripts = {
         assert.throws(() => readTrack("x,y\n1e300,1\n2,3\n4,-1e300\n"), /line 2/);
         assert.throws(() => readTrack("x,y\n1,1\n1,1\n1,1\n"), /the same/);
         assert.throws(() => readTrack(`x${" ".repeat(1e6)}z,y\n1,1\n`), /three places/, "and at once");
+    },
+    "a track of several beads is a line of each, about the common centre of their circles"() {
+        const rows = Array.from({ length: 60 }, (_, i) => [["1", 7 + 20 * Math.cos(i / 9), -3 + 20 * Math.sin(i / 9)], ["2", 7 + 5 * Math.cos(2 - i / 20), -3 + 5 * Math.sin(2 - i / 20)]]).flat();
+        const table = (list) => `t [s],x [mm],y [mm],track,doubts\n${list.map(([bead, x, y]) => `0,${x},${y},${bead},0`).join("\n")}\n`;
+        const { tracks, unit } = readTrack(table(rows)), radii = [20, 5];
+        assert.deepEqual([tracks.map((points) => points.length), unit], [[60, 60], "mm"]);
+        tracks.forEach((points, k) => points.forEach((p) => assert.ok(Math.abs(Math.hypot(...p) - radii[k]) < 1e-9, "though the arcs are short")));
+        assert.equal(readTrack(table([["1", 0, 0], ["2", 9, 0], ["2", 9, 1]])).tracks.length, 2, "one may be seen once");
+        assert.throws(() => readTrack(table([["1", 0, 0], ["2", 9, 0], ["1", 0, 0]])), /the same/);
+        assert.throws(() => readTrack(table(Array.from({ length: 20 }, (_, i) => [i, i, 0]))), /line 10: a track of more than 8 beads/);
     },
     "a table is read as a spreadsheet saves it: semicolons or tabs, decimal commas, empty lines, quoted remarks"() {
         const places = Array.from({ length: 50 }, (_, i) => [7 + 20 * Math.cos(i), -3 + 20 * Math.sin(i)]), number = (value) => value.toExponential(12).replace(".", ",").replace("e", "E");
@@ -723,6 +733,37 @@ const library = {
         assert.equal(core.parts().length, 2);
         for (const name of ["constructor", "__proto__"])
             assert.throws(() => core.setScene(readScene(`${name}: 1\n`)), (error) => error.where === name, "no key is known for what JavaScript calls so");
+    },
+    "each choice and number of the page can be set, after one other at most, and a choice is made and undone in one step"() {
+        const rows = core.parameters.filter(({ key, kind }) => !isBeyond(key) && kind !== "text" && !["magnet.file", "magnet.parts", "magnet.shape"].includes(key));
+        const take = (scene) => core.setScene(scene), takes = (scene) => {
+            try {
+                take(scene);
+                return true;
+            } catch {
+                return false;
+            }
+        };
+        const set = ({ key, kind, otherForm }, value, scene) => {
+            const { [key]: before, [otherForm]: other, ...rest } = scene, next = { ...rest, [key]: value };
+            return kind === "choice" ? fitted(next, key, take) : next;
+        };
+        core.setScene({});
+        const settings = rows.flatMap((row) => {
+            const now = core.value(row.key), other = Number.isFinite(now) && now !== 0 ? Math.min(1.5 * now, row.greatest) : Math.max(1.5 * row.least, 0.4 * Math.min(row.greatest, 1));
+            return (row.names ?? [row.kind === "integer" ? Math.round(other) : other]).map((value) => [row, String(value), core.get(row.key)]);
+        });
+        const first = [{}, { "friction.law": "coulomb" }].flatMap((scene) => [scene, ...settings.map(([row, value]) => set(row, value, scene)).filter(takes)]);
+        for (const [row, value, usual] of settings) {
+            const after = first.map((scene) => set(row, value, scene)).filter(takes);
+            assert.ok(after.length, `${row.key}=${value}`);
+            if (row.kind === "choice")
+                after.forEach((scene) => assert.ok(takes(set(row, usual, scene)), `from ${JSON.stringify(scene)} back to ${row.key}=${usual}`));
+            if (row.kind === "choice")
+                assert.equal(after.length, first.length, `${row.key}=${value} in one step`);
+        }
+        const disc = set(rows.find(({ key }) => key === "contact.patch"), "hertz", { "friction.law": "coulomb", "contact.modulus": "40 GPa" });
+        assert.deepEqual(disc, { "friction.law": "coulomb", "contact.modulus": "40 GPa", "contact.patch": "hertz" }, "what is there is enough");
     },
     "the magnet's bar lies below the plate, its north pole where the field points up"() {
         core.setScene({});
