@@ -480,12 +480,12 @@ export class Panels {
         };
         $("regime").textContent = regimeSentence(result.regime, measures);
         this.showWhy(result.reason && told(inUnits(result.reason, result.groups)));
-        const circles = result.mean_alpha_dot === null ? null : result.mean_alpha_dot * hertz;
+        const circles = result.mean_alpha_dot === null ? null : result.mean_alpha_dot * hertz, rate = digits(Math.abs(circles));
         const wave = result.scene["drive.waveform"] === "wave"; /* which has no axis to circle about */
         const rows = wave ? [] : [
             [T.rows.mean_r, result.mean_r === null ? "–" : `${digits(result.mean_r * mm)} mm`],
             [T.rows.std_r, result.std_r === null ? "–" : `${digits(result.std_r * mm, 3)} mm`],
-            [T.rows.bead, circles === null ? "–" : `${digits(Math.abs(circles))} Hz ${circles < 0 ? T.against : T.along}`],
+            [T.rows.bead, circles === null ? "–" : rate === "0" ? "0 Hz" : `${rate} Hz ${circles < 0 ? T.against : T.along}`],
             [T.rows.festoons, festoons ?? "–"],
         ];
         rows.push(

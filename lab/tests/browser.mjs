@@ -473,6 +473,13 @@ const tests = {
         await page.select("#p-magnet-shape", "parts");
         assert.deepEqual(await shown(), ["point", "", "", "lines"], "refused: there are none");
         assert.match(await page.$eval("#p-magnet-shape-error", (error) => error.textContent), /list them in magnet\.parts/);
+        await type(page, "#p-friction-mu_static", "0.3");
+        assert.deepEqual(await page.$eval("#p-friction-mu", (field) => {
+            const slider = field.closest(".row").querySelector("[type=range]");
+            slider.value = "0.5";
+            slider.dispatchEvent(new Event("input"));
+            return [field.value, slider.value, field.getAttribute("aria-invalid")];
+        }), ["0.2", "0.2", "true"]);
         await close(page);
     },
     async "dropped files: a scene, a track, and hostile ones as text alone"() {
