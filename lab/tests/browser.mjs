@@ -623,7 +623,7 @@ const tests = {
         await described(page);
         await type(page, "#p-drive-frequency", "15 Hz");
         assert.deepEqual(await page.evaluate(() => [window.festoonLab.lab.recording, window.festoonLab.lab.row[0]]), [null, 0]);
-        assert.equal(await page.$eval("#time", (slider) => slider.hidden), true);
+        await page.waitForFunction(() => document.querySelector("#time").hidden, { timeout: 10000 }); /* the next picture hides it */
         festoon("run", "--csv", join(scratch, "usual.csv")); /* as large as a run is that nobody has shortened */
         await (await page.$("#open")).uploadFile(join(scratch, "usual.csv"));
         await page.waitForFunction(() => /^usual\.csv/.test(document.getElementById("notice").textContent), { timeout: 0 });
