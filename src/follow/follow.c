@@ -367,6 +367,23 @@ static void count_turning(const fst_track *track, double radius, fst_film_track_
     }
 }
 
+/* Why the turning, or n, is not known. */
+static void remark_turning(const follow_turning *turning, fst_film_track_report *r)
+{
+    double axis[3];
+    const size_t used = strlen(r->remark);
+    const char *why = NULL;
+    if (turning->few && r->slips == 0)
+        why = "too few marks are in view to tell how the bead turns, unless its motion repeats itself, shows "
+              "all its sides and has 15 frames or more a swing: paint half of the bead";
+    else if (r->slips > 0 && r->turned == 0)
+        why = follow_sphere_axis(&turning->sphere, axis)
+                  ? "no frame tells n surely"
+                  : "n is not known: the film does not show all sides of the bead";
+    if (why)
+        (void)snprintf(r->remark + used, sizeof r->remark - used, "%s%s", used ? "; " : "", why);
+}
+
 /* How the bead turns, by its marks. */
 static fst_status find_turning(tracking *t, const fst_progress *progress, fst_track *track, fst_error *error)
 {
@@ -390,8 +407,11 @@ static fst_status find_turning(tracking *t, const fst_progress *progress, fst_tr
         r->turned = r->slips = 0;
         r->turned_share = 0.0;
         r->slip = r->slipping = NAN;
-        return fst_track_add_turning(track, error);
+        track->rhythm = 0;
+        status = fst_track_add_turning(track, error);
     }
+    if (status == FST_OK)
+        remark_turning(&t->turning, r);
     return status;
 }
 

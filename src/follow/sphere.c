@@ -103,17 +103,18 @@ static void spiral(int k, double point[3])
     point[2] = z;
 }
 
-/* Whether each point of the spiral is a mark; returns which part of them is dark, or NAN. */
-static double find_marks(const follow_sphere *sphere, signed char *dark)
+/* Whether each point of the spiral is a mark; returns which part of those that were seen is dark, or NAN. */
+static double find_marks(const follow_sphere *sphere, signed char *dark, int *unseen)
 {
     double values[POINTS], low = INFINITY, high = -INFINITY;
-    int count = 0, unseen = 0;
+    int count = 0;
+    *unseen = 0;
     for (int k = 0; k < POINTS; ++k) {
         double point[3];
         spiral(k, point);
         values[k] = NAN;
         if (!follow_sphere_at(sphere, point, &values[k], NULL)) {
-            ++unseen;
+            ++*unseen;
             continue;
         }
         low = fmin(low, values[k]);
@@ -136,7 +137,7 @@ static double find_marks(const follow_sphere *sphere, signed char *dark)
         dark[k] = (signed char)(isnan(values[k]) ? 0 : values[k] < middle ? 1 : -1);
         count += dark[k] > 0;
     }
-    return unseen < POINTS / 50 ? (double)count / (POINTS - unseen) : NAN;
+    return (double)count / (POINTS - *unseen);
 }
 
 static void normalise(double v[3])
@@ -192,12 +193,21 @@ static double centre_spot(const signed char *dark, int spot, double axis[3])
     return found;
 }
 
+int follow_sphere_is_half(const follow_sphere *sphere)
+{
+    signed char dark[POINTS];
+    int unseen;
+    const double share = find_marks(sphere, dark, &unseen);
+    return share > LEAST_HALF && share < 1.0 - LEAST_HALF;
+}
+
 int follow_sphere_axis(const follow_sphere *sphere, double axis[3])
 {
     enum { STARTS = 25 };
     signed char dark[POINTS];
-    const double share = find_marks(sphere, dark);
-    if (isnan(share))
+    int unseen;
+    const double share = find_marks(sphere, dark, &unseen);
+    if (isnan(share) || unseen >= POINTS / 50)
         return 0;
     if (share > LEAST_HALF && share < 1.0 - LEAST_HALF) {
         double sum[3] = {0.0, 0.0, 0.0};

@@ -29,6 +29,9 @@ void follow_sphere_sharpen(follow_sphere *sphere, const follow_sphere *rest);
 /* The value at a point, and its gradient in space (NULL: not wanted).  Returns 0 where nothing was seen there. */
 int follow_sphere_at(const follow_sphere *sphere, const double point[3], double *value, double slope[3]);
 
+/* Whether about half of what was seen is dark. */
+int follow_sphere_is_half(const follow_sphere *sphere);
+
 /* The axis of the marks: the middle of the darker half where about half of the surface is dark, and of the larger spot
  * otherwise, a spot being what less of the surface is.  Returns 0 where a part of the surface was never seen. */
 int follow_sphere_axis(const follow_sphere *sphere, double axis[3]);

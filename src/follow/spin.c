@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/dot.h"
 #include "base/error.h"
 #include "base/order.h"
@@ -35,6 +36,9 @@ enum {
 #define MOST_CHI2 27.9
 /* So many frames in a row err alike. */
 #define ALIKE 5.0
+/* Where frames show few marks: in so many the bead swings once, and by so much errors may be wider than these say. */
+#define FEWEST_FRAMES 15.0
+#define MOST_WIDENED 3.0
 /* The mean of chi^2 of 15 degrees of freedom, which the wider window leaves, over its median. */
 #define MEDIAN_CHI 1.046
 
@@ -449,6 +453,14 @@ static int keep_rhythm(const follow_turning *t, const follow_rhythm *rhythm, dou
     return 1;
 }
 
+/* Frames that show few marks hardly test the rhythm that they follow: it must be slow enough to be known, the film show all
+ * sides of the bead, and rotations be nearly as sure as they say. */
+static int is_tested(const follow_rhythm *rhythm, double usual, double widen, const double axis[3])
+{
+    return isfinite(axis[0]) && widen < MOST_WIDENED &&
+           fabs(rhythm->rates[1]) * usual < FST_TWO_PI / FEWEST_FRAMES;
+}
+
 fst_status follow_spin(const follow_turning *turning, fst_track *track, fst_error *error)
 {
     const size_t count = (size_t)turning->count;
@@ -460,18 +472,22 @@ fst_status follow_spin(const follow_turning *turning, fst_track *track, fst_erro
                             : fst_fail(error, FST_NO_MEMORY, "track", "no memory for the turning of a bead");
     if (status == FST_OK && turning->count > 1) {
         const double usual = follow_usual_step(turning, room);
+        double widen = INFINITY;
         follow_rhythm rhythm = {.lines = 0};
         if (!follow_sphere_axis(&turning->sphere, axis))
             axis[0] = axis[1] = axis[2] = NAN;
         (void)tell_all(turning, &rhythm, usual, axis, room, told);
         follow_rhythm_find(turning, usual, &rhythm);
         if (rhythm.lines > 0) {
-            const double widen = tell_all(turning, &rhythm, usual, axis, room, told + count);
+            widen = tell_all(turning, &rhythm, usual, axis, room, told + count);
             if (keep_rhythm(turning, &rhythm, usual, widen, axis, told + count, sure, told))
                 track->rhythm = rhythm.lines;
         }
+        if (turning->few && !is_tested(&rhythm, usual, widen, axis))
+            track->rhythm = 0;
+        const int refused = turning->few && track->rhythm == 0;
         for (size_t i = 0; i < count; ++i)
-            track->turning[turning->turns[i].frame] = isinf(told[i].w_error) ? nothing : told[i];
+            track->turning[turning->turns[i].frame] = refused || isinf(told[i].w_error) ? nothing : told[i];
     }
     free(sure);
     free(told);

@@ -19,7 +19,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/constants.h"
 #include "base/dot.h"
 #include "base/error.h"
 #include "base/order.h"
@@ -49,7 +48,6 @@ enum {
 #define LEAST_SPREAD 2.0    /* gray levels that marks change on a point of the face */
 #define ENOUGH 0.5          /* of what is foretold from a frame: no better one is looked for */
 #define LEAST_GAIN 5e-6     /* of what is explained, for another pass */
-#define FEWEST_FRAMES 15.0  /* in which the bead swings once, where some show few marks */
 #define MOST_MOVED 0.05     /* rad in a pass, by a rotation that finds its place */
 #define LEAST_KEPT 0.5      /* of a pass's movement by the next */
 #define LEAP 8.0            /* times the movement of a pass */
@@ -395,11 +393,10 @@ fst_status follow_turning_find(follow_turning *turning, const fst_progress *prog
             next = repeats ? WINDOWS : next; /* a wrong rhythm does not become right */
         }
     }
-    /* Frames that show but one mark follow a rhythm that they do not test: it must be slow enough to be known. */
-    const int unsure = t->trust > 0.0 && fabs(rhythm.rates[1]) * usual > FST_TWO_PI / FEWEST_FRAMES;
-    const int is_found = *explained >= LEAST_EXPLAINED && !unsure;
+    const int is_found = *explained >= LEAST_EXPLAINED;
     if (!is_found)
         *explained = 0.0;
+    t->few = is_found && (t->trust > 0.0 || !follow_sphere_is_half(&t->sphere));
     for (int i = 0; i < t->count && is_found; ++i)
         follow_known(t, &t->turns[i]);
     free(room);

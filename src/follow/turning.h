@@ -53,6 +53,7 @@ typedef struct follow_turning {
     double radius;      /* pixels */
     double millimetres; /* the radius */
     int points, count;  /* of a face; of frames */
+    int few;            /* whether frames show few marks, so that only what repeats itself is sure */
     int capacity;
     short *map;            /* of each node of the square around the face: the number of its point, or -1 */
     double (*grid)[2];     /* of each point, to the right and up, in radii */

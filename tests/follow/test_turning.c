@@ -161,6 +161,7 @@ static void axes_of_marks(void **state)
         assert_false(follow_sphere_axis(&sphere, axis));
         paint_sphere(&sphere, half);
         assert_true(follow_sphere_axis(&sphere, axis));
+        assert_int_equal(follow_sphere_is_half(&sphere), half);
         CHECK_CLOSE(fst_dot(axis, (const double[3]){0.36, 0.48, 0.8}, 3), 1.0, half ? 1e-3 : 5e-4);
         /* The gradient is that of the value. */
         double value[2], slope[3], at[3] = {0.48, 0.6, 0.64}, beside[3] = {0.4801, 0.6, 0.64};
@@ -175,8 +176,9 @@ static void axes_of_marks(void **state)
 
 enum { FRAMES = 140, FINE = 40 };
 #define RADIUS 2.5
-#define STEP (1.0 / 240.0)
 #define DISTANCE 150.0 /* mm, of the camera over the origin */
+
+static double apart = 1.0 / 240.0; /* s, from one frame to the next */
 
 /* ONCE: it does not repeat itself.  REPEATS: seen from what turns at 45 rad/s it does, 120 rad/s being the rate.  ALMOST: but
  * for its slip.  KINKS: the slope of its slip leaps, as dry friction makes it. */
@@ -225,7 +227,7 @@ static void move(follow_turning *t, kind what)
     for (int i = 0; i < FRAMES; ++i) {
         follow_turn *f = &t->turns[i];
         *f = (follow_turn){
-            .frame = i, .good = 1, .time = STEP * i, .bright = 200.0, .shrink = 1.0, .view = STILL};
+            .frame = i, .good = 1, .time = apart * i, .bright = 200.0, .shrink = 1.0, .view = STILL};
         /* What points up turns towards the camera. */
         fst_turn_by(f->view, (const double[3]){place[1] / DISTANCE, -place[0] / DISTANCE, 0.0});
         f->close = RADIUS / DISTANCE;
@@ -234,13 +236,13 @@ static void move(follow_turning *t, kind what)
         f->pose.gain = 1.0;
         for (int k = 0; k < FINE; ++k) {
             double w[3], v[2];
-            rate(what, STEP * (i + (k + 0.5) / FINE), w);
-            velocity(what, STEP * (i + (k + 0.5) / FINE), v);
+            rate(what, apart * (i + (k + 0.5) / FINE), w);
+            velocity(what, apart * (i + (k + 0.5) / FINE), v);
             for (int j = 0; j < 3; ++j)
-                w[j] *= STEP / FINE;
+                w[j] *= apart / FINE;
             fst_turn_by(turn, w);
             for (int j = 0; j < 2; ++j)
-                place[j] += v[j] * STEP / FINE;
+                place[j] += v[j] * apart / FINE;
         }
     }
 }
@@ -257,7 +259,7 @@ static void make_track(fst_track *track)
     fst_error error;
     *track = (fst_track){.rows = 0};
     for (int i = 0; i < FRAMES; ++i)
-        assert_int_equal(fst_track_append(track, i, STEP * i, 0.0, 0.0, &error), FST_OK);
+        assert_int_equal(fst_track_append(track, i, apart * i, 0.0, 0.0, &error), FST_OK);
 }
 
 /* A shutter that rolls, in a film that was turned: frames show the bead later than they say, which its places tell.  What does
@@ -276,14 +278,14 @@ static void shutters(void **state)
             for (int j = 0; j < 2; ++j)
                 t.turns[i].place[j] += 0.01 * normal(&seed);
         }
-        follow_rhythm_shutter(&t, STEP);
+        follow_rhythm_shutter(&t, apart);
         for (int i = 0; i < FRAMES; ++i) { /* all may be late alike */
-            const double late = t.turns[i].time - STEP * i;
+            const double late = t.turns[i].time - apart * i;
             first = i == 0 ? late : first;
             most = fmax(most, fabs(late - first));
         }
         print_message("times are off by up to %.1f us\n", 1e6 * most);
-        assert_true(most < (what == REPEATS ? 2e-5 : STEP));
+        assert_true(most < (what == REPEATS ? 2e-5 : apart));
         follow_turning_end(&t);
     }
 }
@@ -325,8 +327,8 @@ static void spins_of(kind what, uint64_t seed, double most)
     for (int i = 0; i < FRAMES; ++i) {
         const fst_turning *f = &track.turning[i];
         double w[3], slip[2];
-        rate(what, STEP * i, w);
-        slip_of(what, STEP * i, slip);
+        rate(what, apart * i, w);
+        slip_of(what, apart * i, slip);
         if (hidden(what, i))
             assert_true(f->n_error > 0.02 && f->n_error < 0.15);
         for (int j = 0; j < 3 && isfinite(f->n_error); ++j)
@@ -367,6 +369,50 @@ static void spins(void **state)
         spins_of(ALMOST, seed, 30.0);
         spins_of(KINKS, seed, 4.0);
     }
+}
+
+/* In how many frames the turning of a bead that shows few marks is told. */
+static int told_of(kind what, int all_sides, double wider)
+{
+    uint64_t seed = 4;
+    int told = 0;
+    follow_turning t;
+    fst_track track;
+    fst_error error;
+    begin(&t, what);
+    t.few = 1;
+    if (all_sides)
+        paint_sphere(&t.sphere, 0);
+    for (int i = 0; i < FRAMES; ++i) {
+        double by[3];
+        for (int j = 0; j < 3; ++j) {
+            by[j] = wider * 0.01 * normal(&seed);
+            t.turns[i].known[j][j] = 1e4;
+        }
+        fst_turn_by(t.turns[i].pose.turn, by);
+    }
+    make_track(&track);
+    assert_int_equal(follow_spin(&t, &track, &error), FST_OK);
+    for (int i = 0; i < FRAMES; ++i)
+        told += isfinite(track.turning[i].w_error) || isfinite(track.turning[i].slip_error);
+    assert_int_equal(track.rhythm > 0, told > 0);
+    fst_track_free(&track);
+    follow_turning_end(&t);
+    return told;
+}
+
+/* Few marks tell what repeats itself, if each swing has 15 frames, all sides of the bead are seen, and rotations are as sure
+ * as they say: nothing else. */
+static void few_marks(void **state)
+{
+    (void)state;
+    assert_int_equal(told_of(REPEATS, 1, 1.0), 0); /* 12.6 frames */
+    apart = 1.0 / 300.0;                           /* 15.7 */
+    assert_int_equal(told_of(REPEATS, 1, 1.0), FRAMES);
+    assert_int_equal(told_of(REPEATS, 1, 5.0), 0);
+    assert_int_equal(told_of(REPEATS, 0, 1.0), 0);
+    assert_int_equal(told_of(ONCE, 1, 1.0), 0);
+    apart = 1.0 / 240.0;
 }
 
 /* ------------------------------------------------------------------ faces */
@@ -516,12 +562,12 @@ static void faces_in_rhythm(void **state)
     begin(&t, REPEATS);
     paint_faces(&t, 0.8, 0);
     (void)follow_light_begin(&t);
-    assert_true(follow_rhythm_begin(&t, STEP, &rhythm));
+    assert_true(follow_rhythm_begin(&t, apart, &rhythm));
     for (int i = 0; i < FRAMES; ++i) {
         double w[3], found[3], v[2];
-        rate(REPEATS, STEP * i, w);
-        velocity(REPEATS, STEP * i, v);
-        follow_rhythm_rate(&rhythm, STEP * i, found);
+        rate(REPEATS, apart * i, w);
+        velocity(REPEATS, apart * i, v);
+        follow_rhythm_rate(&rhythm, apart * i, found);
         for (int k = 0; k < 3; ++k)
             off += pow(found[k] - w[k], 2.0) / (3 * FRAMES);
         rolling +=
@@ -549,15 +595,11 @@ static void no_marks(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rotation_vectors),
-        cmocka_unit_test(cameras),
-        cmocka_unit_test(axes_of_marks),
-        cmocka_unit_test(spins),
-        cmocka_unit_test(shutters),
-        cmocka_unit_test(lines_of_sight),
-        cmocka_unit_test(faces),
-        cmocka_unit_test(faces_in_rhythm),
-        cmocka_unit_test(no_marks),
+        cmocka_unit_test(rotation_vectors), cmocka_unit_test(cameras),
+        cmocka_unit_test(axes_of_marks),    cmocka_unit_test(spins),
+        cmocka_unit_test(few_marks),        cmocka_unit_test(shutters),
+        cmocka_unit_test(lines_of_sight),   cmocka_unit_test(faces),
+        cmocka_unit_test(faces_in_rhythm),  cmocka_unit_test(no_marks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
