@@ -198,7 +198,7 @@ int follow_sphere_is_half(const follow_sphere *sphere)
     signed char dark[POINTS];
     int unseen;
     const double share = find_marks(sphere, dark, &unseen);
-    return share > LEAST_HALF && share < 1.0 - LEAST_HALF;
+    return unseen < POINTS / 3 && share > LEAST_HALF && share < 1.0 - LEAST_HALF;
 }
 
 int follow_sphere_axis(const follow_sphere *sphere, double axis[3])

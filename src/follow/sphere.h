@@ -29,7 +29,7 @@ void follow_sphere_sharpen(follow_sphere *sphere, const follow_sphere *rest);
 /* The value at a point, and its gradient in space (NULL: not wanted).  Returns 0 where nothing was seen there. */
 int follow_sphere_at(const follow_sphere *sphere, const double point[3], double *value, double slope[3]);
 
-/* Whether about half of what was seen is dark. */
+/* Whether most of it was seen, and about half of that is dark. */
 int follow_sphere_is_half(const follow_sphere *sphere);
 
 /* The axis of the marks: the middle of the darker half where about half of the surface is dark, and of the larger spot

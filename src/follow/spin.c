@@ -38,7 +38,7 @@ enum {
 #define ALIKE 5.0
 /* Where frames show few marks: in so many the bead swings once, and by so much errors may be wider than these say. */
 #define FEWEST_FRAMES 15.0
-#define MOST_WIDENED 3.0
+#define MOST_WIDENED 4.0
 /* The mean of chi^2 of 15 degrees of freedom, which the wider window leaves, over its median. */
 #define MEDIAN_CHI 1.046
 
@@ -453,12 +453,13 @@ static int keep_rhythm(const follow_turning *t, const follow_rhythm *rhythm, dou
     return 1;
 }
 
-/* Frames that show few marks hardly test the rhythm that they follow: it must be slow enough to be known, the film show all
- * sides of the bead, and rotations be nearly as sure as they say. */
-static int is_tested(const follow_rhythm *rhythm, double usual, double widen, const double axis[3])
+/* Frames that show few marks hardly test the rhythm that they follow: it must be slow enough to be known, and the film show
+ * all sides of the bead.  Rotations of these, and of a bead of which not all is seen, must be nearly as sure as they say. */
+static int is_tested(const follow_turning *t, const follow_rhythm *rhythm, int kept, double usual, double widen,
+                     const double axis[3])
 {
-    return isfinite(axis[0]) && widen < MOST_WIDENED &&
-           fabs(rhythm->rates[1]) * usual < FST_TWO_PI / FEWEST_FRAMES;
+    const int all_sides = isfinite(axis[0]), slow = fabs(rhythm->rates[1]) * usual < FST_TWO_PI / FEWEST_FRAMES;
+    return (widen < MOST_WIDENED || (all_sides && !t->few)) && (!t->few || (kept > 0 && slow && all_sides));
 }
 
 fst_status follow_spin(const follow_turning *turning, fst_track *track, fst_error *error)
@@ -472,20 +473,18 @@ fst_status follow_spin(const follow_turning *turning, fst_track *track, fst_erro
                             : fst_fail(error, FST_NO_MEMORY, "track", "no memory for the turning of a bead");
     if (status == FST_OK && turning->count > 1) {
         const double usual = follow_usual_step(turning, room);
-        double widen = INFINITY;
         follow_rhythm rhythm = {.lines = 0};
         if (!follow_sphere_axis(&turning->sphere, axis))
             axis[0] = axis[1] = axis[2] = NAN;
-        (void)tell_all(turning, &rhythm, usual, axis, room, told);
+        double widen = tell_all(turning, &rhythm, usual, axis, room, told);
         follow_rhythm_find(turning, usual, &rhythm);
         if (rhythm.lines > 0) {
             widen = tell_all(turning, &rhythm, usual, axis, room, told + count);
             if (keep_rhythm(turning, &rhythm, usual, widen, axis, told + count, sure, told))
                 track->rhythm = rhythm.lines;
         }
-        if (turning->few && !is_tested(&rhythm, usual, widen, axis))
-            track->rhythm = 0;
-        const int refused = turning->few && track->rhythm == 0;
+        const int refused = !is_tested(turning, &rhythm, track->rhythm, usual, widen, axis);
+        track->rhythm = refused ? 0 : track->rhythm;
         for (size_t i = 0; i < count; ++i)
             track->turning[turning->turns[i].frame] = refused || isinf(told[i].w_error) ? nothing : told[i];
     }
