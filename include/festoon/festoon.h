@@ -466,9 +466,10 @@ enum { FST_X, FST_Y, FST_VX, FST_VY, FST_NX, FST_NY, FST_NZ, FST_WX, FST_WY, FST
 FST_API fst_status fst_start_state(const fst_params *params, const fst_model *model,
                                    double state[FST_STATE_SIZE], fst_error *error);
 
-/* The field at the height of the bead's centre, in the magnet's frame (at the time 0 the laboratory's): b[3], grad[i][j] = dB_i/dx_j
- * (traceless, and symmetric but for the curl that a measured field has), scaled; NAN beyond the samples of a
- * map, or where no bead's centre can be in a bowl.  Paper, section IV: lines of dipoles, each two point charges, Eq. (11). */
+/* The field at the height of the bead's centre, in the magnet's frame (at the time 0 the laboratory's): b[3],
+ * grad[i][j] = dB_i/dx_j (traceless, and symmetric but for the curl that a measured field has), scaled; NAN beyond
+ * the samples of a map, or where no bead's centre can be in a bowl.  Paper, section IV: lines of dipoles, each two
+ * point charges, Eq. (11). */
 FST_API void fst_field(const fst_model *model, double x, double y, double b[3], double grad[3][3]);
 
 /* That height, in l: in a bowl it grows from the axis; NAN where no bead's centre can be. */

@@ -368,8 +368,8 @@ FST_API fst_status fst_sweep_export(const char *path, fst_export_format format, 
                                     const fst_progress *progress, fst_error *error);
 
 /* Write chosen columns as CSV: the varied parameters and `keys` (count = 0: regime, mean_r, std_r,
- * mean_alpha_dot; one key "all": every column), in the wanted units, each name with its unit behind it: "mean_r [mm]"; and `status`: done,
- * missing where there is no row, or why the run failed.  Fails where rows are damaged. */
+ * mean_alpha_dot; one key "all": every column), in the wanted units, each name with its unit behind it:
+ * "mean_r [mm]"; and `status`: done, missing where there is no row, or why the run failed.  Fails where rows are damaged. */
 FST_API fst_status fst_sweep_export_keys(const char *path, const char *const *keys, int count,
                                          fst_shown_units units, const char *out, FILE *stream,
                                          const fst_progress *progress, fst_error *error);

@@ -26,9 +26,9 @@ typedef struct beads_groups {
 /* The same numbers at a moment, kept. */
 typedef struct beads_moment {
     double time, impacts, work[BEADS_R];
-    double
-        *numbers; /* of each bead: r, load, turned, x; behind these those of the groups; of the middle then the
-                        swings after it */
+    /* Of each bead: r, load, turned, x; behind these those of the groups; behind these, of the middle, the swings after
+     * it. */
+    double *numbers;
 } beads_moment;
 
 /* Room for what is told of `count` beads.  FST_NO_MEMORY; free it in either case. */

@@ -120,10 +120,9 @@ static void give_reason(const fst_beads_result *beads, const fst_params *params,
              (!is_driven(params) &&
               (bead->regime == FST_REGIME_COUNTER_ROTATING || bead->regime == FST_REGIME_COROTATING)))
         tell_undecided(bead, params, g, run);
-    else {
-        const double lag =
-            beads->omega - bead->mean_alpha_dot; /* of a bead that swings with the magnet: chance */
-        const int with = bead->regime == FST_REGIME_LIBRATING && fabs(lag) <= bead->mean_alpha_dot_error;
+    else { /* the mean rate of a bead that swings with the magnet is off the magnet's by chance alone */
+        const double apart = fabs(beads->omega - bead->mean_alpha_dot);
+        const int with = bead->regime == FST_REGIME_LIBRATING && apart <= bead->mean_alpha_dot_error;
         (void)snprintf(run->reason, room, "the bead circles at %.4g of the drive's rate",
                        with ? 1.0 : bead->mean_alpha_dot / beads->omega);
     }

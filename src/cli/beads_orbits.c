@@ -28,7 +28,7 @@ static void print_pairs(FILE *out, const char *title, const double *re, const do
     (void)fprintf(out, "\n");
 }
 
-/* Eigenvalues; in other units than those that are given, with their unit. */
+/* Print the eigenvalues.  The title names their unit, but where nobody asked for units. */
 static void print_rates(const page *p, const fst_beads_locked *l)
 {
     const char *unit;

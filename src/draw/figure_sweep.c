@@ -67,16 +67,6 @@ static fst_status read_value(const fst_grid *grid, int axis, const char *text, d
     return FST_OK;
 }
 
-int fst_sweep_is_at(const char *text, const char *key)
-{
-    char name[64] = "";
-    const char *equals = strchr(text, '=');
-    if (equals && equals - text < (ptrdiff_t)sizeof name)
-        (void)snprintf(name, sizeof name, "%.*s", (int)(equals - text), text);
-    const int row = fst_param_find(name);
-    return row >= 0 && row == fst_param_find(key);
-}
-
 /* The axis that a text "KEY=VALUE" names, and its value. */
 static fst_status read_at(const fst_grid *grid, const char *text, int *axis, double *value, fst_error *error)
 {

@@ -19,9 +19,6 @@ enum { FST_SWEEP_GAPS = 6, FST_SWEEP_UNDECIDED = 0, FST_SWEEP_FAILED = FST_SWEEP
 fst_chart_curve fst_sweep_sign(const char *state_key, int gap);
 #define FST_SWEEP_EDGE 0.03 /* how high signs stand over the lower edge, in parts of the panel */
 
-/* Whether a text "KEY=VALUE" names a key, also by its short name. */
-int fst_sweep_is_at(const char *text, const char *key);
-
 fst_status fst_figure_sweep_map(const fst_sweep_table *table, const fst_sweep_quantity *quantity,
                                 const fst_sweep_slice *slice, const fst_sweep_figure *options, const char *out,
                                 fst_error *error);

@@ -46,12 +46,21 @@ static fst_scales scales_of(const fst_grid *grid)
     return scales;
 }
 
+int fst_sweep_is_at(const char *text, const char *key)
+{
+    char name[64] = "";
+    const char *equals = strchr(text, '=');
+    if (equals && equals - text < (ptrdiff_t)sizeof name)
+        (void)snprintf(name, sizeof name, "%.*s", (int)(equals - text), text);
+    const int row = fst_param_find(name);
+    return row >= 0 && row == fst_param_find(key);
+}
+
 /* Whether a figure shows one value of this axis alone. */
 static int is_fixed(const char *key, const char *const *at)
 {
-    const size_t length = strlen(key);
     for (int i = 0; i < FST_AXIS_LIMIT && at[i]; ++i)
-        if (strncmp(at[i], key, length) == 0 && at[i][length] == '=')
+        if (fst_sweep_is_at(at[i], key))
             return 1;
     return 0;
 }

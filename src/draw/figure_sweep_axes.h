@@ -12,6 +12,9 @@
  * is not varied. */
 fst_shown_units fst_sweep_units(const fst_grid *grid, const char *const *at);
 
+/* Whether a text "KEY=VALUE" names a key, also by its short name. */
+int fst_sweep_is_at(const char *text, const char *key);
+
 /* A label without its unit, "drive frequency". */
 void fst_sweep_words(const char *label, char words[128]);
 

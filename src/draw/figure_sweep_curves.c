@@ -239,9 +239,9 @@ static int by_place(const void *a, const void *b)
                               : (one->point > other->point) - (one->point < other->point);
 }
 
-/* Choose which points of a slice are drawn, along the axis, for those of a random one or of a list have any order: at most
- * MOST_POINTS, because a figure shows no more; of a refined sweep only those that were computed.  Returns n where each n-th
- * point is drawn; 0: no memory. */
+/* Choose which points of a slice are drawn.  They are sorted along the axis, because a random axis or a list has them in any
+ * order; a refined sweep has only those that were computed; and each n-th is taken, so that there are at most MOST_POINTS,
+ * because a figure shows no more.  Returns n; 0: no memory. */
 static size_t choose_points(drawing *d, const fst_sweep_slice *slice)
 {
     const fst_grid *grid = d->table->grid;

@@ -18,7 +18,8 @@ void follow_on_bead(const double turn[3][3], const double facing[3], double poin
 /* A square in sigma^2, cut off as outliers are. */
 double follow_bound(double square);
 
-/* Of the frame that was prepared: improve a pose in a few steps, by what is expected of it too; or try rotations up to `reach` (rad) around it first. */
+/* Of the frame that was prepared: improve a pose in a few steps, by what is expected of it too; or try rotations up to
+ * `reach` (rad) around it first. */
 void follow_refine(const follow_turning *t, const follow_turn *f, int steps, follow_pose *pose);
 void follow_search(const follow_turning *t, const follow_turn *f, double reach, follow_pose *pose);
 

@@ -83,8 +83,8 @@ void follow_rhythm_place(const follow_rhythm *r, double time, double place[2], d
     }
 }
 
-/* Fit arrows, the centre and, by the arrows there are, changes of the rates and of how the shutter rolls to the first frames.
- * Returns the square that is left of the places before the changes. */
+/* Fit arrows, the centre and, by the arrows there are, changes of the rates and of how the shutter rolls to the first
+ * frames.  Returns the square that is left of the places before the changes. */
 static double fit_places(const follow_turning *t, int frames, follow_rhythm *r, int rates)
 {
     const int arrows = 2 * (2 * r->lines + 1);
@@ -314,7 +314,8 @@ static double fit_rotations(const follow_turning *t, double usual, follow_rhythm
 
 /* ------------------------------------------------------------------ faces */
 
-/* The mark that a frame shows in a direction (in the laboratory), and how it changes with the direction; 0: none is seen well there. */
+/* The mark that a frame shows in a direction (in the laboratory), and how it changes with the direction.  0: none is seen
+ * well there. */
 static int mark_at(const follow_turning *t, const follow_turn *f, const double at[3], double *mark,
                    double slope[3])
 {

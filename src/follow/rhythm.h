@@ -19,8 +19,7 @@ typedef struct follow_rhythm {
     int lines;       /* the greatest j; 0: nothing repeats itself */
     double start;    /* s, the time from which phases count */
     double rates[2]; /* w_b, w_r, rad/s */
-    double
-        later[2]; /* how much later a frame shows the bead for each mm to the right and up: shutters roll (s) */
+    double later[2]; /* s: by how much later a frame shows the bead a mm to the right, and up; shutters roll */
     double place[FOLLOW_ARROWS + 2], rate[FOLLOW_WAVES];
     double missing; /* of a component of the slip, in lines that it does not have: mm/s */
 } follow_rhythm;
@@ -28,8 +27,8 @@ typedef struct follow_rhythm {
 /* The usual time from a frame to the next (s); `room` is for as many numbers as there are frames. */
 double follow_usual_step(const follow_turning *turning, double *room);
 
-/* Where places repeat themselves, they tell how the camera's shutter rolls: let the times of frames be those at which they show
- * the bead. */
+/* Where places repeat themselves, they tell how the camera's shutter rolls: let the times of frames be those at which
+ * they show the bead. */
 void follow_rhythm_shutter(follow_turning *turning, double usual);
 
 /* Find it in the good frames, which usually are `usual` (s) apart. */

@@ -214,8 +214,8 @@ static double find_shade(follow_outline *outline, double contrast, double *where
     return same && odd > LEAST_SHADE * contrast ? fmin(most, MOST_SHADE * contrast) : 0.0;
 }
 
-/* A dot on the bead may step more than the bead's outline, which no sample that shows less dots does: leave out circles that are much
- * smaller than the large ones. */
+/* A dot on the bead may step more than the bead's outline: its circle was taken for the bead's.  Samples that show no such
+ * dot have the bead's, so leave out circles that are much smaller than the large ones. */
 static void leave_out_dots(follow_outline *o)
 {
     double sorted[FOLLOW_SAMPLES];

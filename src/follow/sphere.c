@@ -103,7 +103,8 @@ static void spiral(int k, double point[3])
     point[2] = z;
 }
 
-/* Whether each point of the spiral is a mark; returns which part of those that were seen is dark, or NAN. */
+/* Find which points of the spiral are marks, and how many were not seen.  Returns the dark share of the others, NAN where
+ * there is none. */
 static double find_marks(const follow_sphere *sphere, signed char *dark, int *unseen)
 {
     double values[POINTS], low = INFINITY, high = -INFINITY;

@@ -342,8 +342,8 @@ static void tell(const follow_turning *t, const follow_turn *f, const window *w,
     told->slip_error = hypot(factor * place, t->millimetres * widen * sqrt(flat)) / usual;
 }
 
-/* What all windows tell, beyond a rhythm; the error of W is INFINITY where the rotation is wrong.  Returns by how much errors are
- * wider than frames alone say. */
+/* What all windows tell, beyond a rhythm; the error of W is INFINITY where the rotation is wrong.  Returns by how much
+ * errors are wider than frames alone say. */
 static double tell_all(const follow_turning *t, const follow_rhythm *rhythm, double usual, const double axis[3],
                        double *room, fst_turning *told)
 {
@@ -423,8 +423,9 @@ static void know(const follow_turning *t, double widen, double unsure, double (*
     }
 }
 
-/* Where less is left of a motion that repeats itself than windows err by, the rhythm tells W and slip, also in frames that show
- * no marks.  What is left is their error: chance, or by how much the motion does not repeat itself.  Returns whether it was so. */
+/* Where less is left of a motion that repeats itself than windows err by, the rhythm tells W and slip, also in frames that
+ * show no marks.  What is left is their error: chance, or by how much the motion does not repeat itself.  Returns whether
+ * it was so. */
 static int keep_rhythm(const follow_turning *t, const follow_rhythm *rhythm, double usual, double widen,
                        const double axis[3], const fst_turning *left, double (*sure)[3][3], fst_turning *told)
 {

@@ -155,8 +155,8 @@ static void expect_rhythm(follow_turning *t, const follow_rhythm *rhythm, double
         follow_rhythm_turning(rhythm, t->turns[i - 1].time, t->turns[i].time, t->turns[i].step);
 }
 
-/* Where all frames tell their rotation about as well, expect no more of them.  Else expect what the rotations that were found repeat,
- * for those frames which show but one mark, or none. */
+/* Where all frames tell their rotation about as well, expect no more of them.  Else expect what the rotations that were
+ * found repeat, for those frames which show but one mark, or none. */
 static void expect_better(follow_turning *t, double *room)
 {
     const int most = (int)(NEARLY_ALL * (t->count - 1));

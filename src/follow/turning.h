@@ -42,11 +42,10 @@ typedef struct follow_turn {
     double shrink;      /* radii of the bead there that a radius of the patch is */
     double shift[2];    /* of its centre, to the right and up from that of the patch, in radii of the patch */
     follow_pose pose;
-    double step[3][3]; /* the turning since the frame before, by what repeats itself */
-    double expected[3][3],
-        trust;          /* the rotation that its neighbours expect, and the inverse of the variance of each
-                                     component (1/rad^2); 0: none */
-    double known[3][3]; /* the inverse of the covariance of its rotation vector, from this frame alone */
+    double step[3][3];     /* the turning since the frame before, by what repeats itself */
+    double expected[3][3]; /* the rotation that its neighbours expect, */
+    double trust;          /* and how surely: the inverse of the variance of a component (1/rad^2); 0: none */
+    double known[3][3];    /* the inverse of the covariance of its rotation vector, from this frame alone */
 } follow_turn;
 
 typedef struct follow_turning {

@@ -1,8 +1,8 @@
 /* hdf5_module.c - trajectories in HDF5, as the module festoon-hdf5.so.
  *
- * The file: one extendible data set of doubles for each column, with the attributes `unit` and `description`, and
- * of a sweep one of texts; at the root the attributes `program`, `version`, `units`, `scene` (YAML), `result` (JSON, as `festoon run
- * --json`) and `complete` (a boolean).
+ * The file: one extendible data set of doubles for each column, with the attributes `unit` and `description`, and of a
+ * sweep one of texts; at the root the attributes `program`, `version`, `units`, `scene` (YAML), `result` (JSON, as
+ * `festoon run --json`) and `complete` (a boolean).
  */
 #include "io/hdf5_module.h"
 

@@ -15,9 +15,9 @@ typedef struct fst_mark {
     double state[FST_STATE_SIZE];
     double half_distance; /* marks of returns: from the state half a return ago, its image under S2 */
     double full_distance; /* marks of returns: from the state a whole return ago */
-    int64_t captures;     /* slips that have come to rest; steps in which the contact nearly let go */
-    int64_t touches;
-    int64_t impacts; /* of a bead that flies; the impulses that held it up, and the energy they took */
+    int64_t captures;     /* slips that have come to rest */
+    int64_t touches;      /* steps in which the contact nearly let go */
+    int64_t impacts;      /* of a bead that flies; the impulses that held it up, and the energy they took */
     double impulse, impact_loss;
     double activity; /* marks of periods: greatest speed in the turning frame since the mark before */
 } fst_mark;

@@ -30,9 +30,9 @@ typedef struct fst_contact_state {
     double proposal[FST_MODES][FST_ROLL_MODES]; /* size of the next step in each pair of modes */
     int followed;     /* whether neighbours of a disc are carried along (neighbours.c), which know no creep */
     int64_t captures; /* slips that came to rest before the last step */
-    double dip;      /* the least that static friction could still take, near where it could come to nothing, */
-    int64_t touches; /* and steps in which that was so little that another tolerance might have let go */
-    int64_t impacts; /* of a bead that flew, the impulses that held it up, and the energy they took */
+    double dip;       /* in the last step, the least push that static friction could have taken besides */
+    int64_t touches;  /* steps in which that was so little that another tolerance might have let go */
+    int64_t impacts;  /* of a bead that flew, the impulses that held it up, and the energy they took */
     double impulse, impact_loss;
 } fst_contact_state;
 

@@ -116,7 +116,7 @@ static void fill_turning(const fst_watched_run *run, fst_run_result *result)
                        single, 2.0 * single);
 }
 
-/* A contact of which it is not known whether it slips. */
+/* Say why it is not known whether the contact slips. */
 static void tell_of_contact(const fst_watched_run *run, fst_run_result *result)
 {
     const size_t told = strlen(result->reason);

@@ -327,9 +327,11 @@ static void name_keys(int from, int to, char *names, size_t size)
         if (is_run)
             (void)snprintf(
                 names, size,
-                "regime|symmetry|carried|never_slips|returns|rhs_calls|steps_accepted|steps_rejected|"
-                "final_X|final_Y|final_vX|final_vY|final_nX|final_nY|final_nZ|final_WX|final_WY|"
-                "final_WZ");
+                "regime|symmetry|carried|never_slips|returns|rhs_calls|steps_accepted|steps_rejected");
+        for (int i = 0; is_run && i < FST_STATE_SIZE; ++i) {
+            const size_t used = strlen(names);
+            (void)snprintf(names + used, size - used, "|final_%s", fst_state_names[i]);
+        }
         for (int i = 0; i < (is_run ? fst_result_count() : fst_bead_column_count((fst_row_kind)kind)); ++i) {
             const size_t used = strlen(names);
             (void)snprintf(names + used, size - used, "%s%s", used ? "|" : "",

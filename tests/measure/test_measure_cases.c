@@ -1,38 +1,12 @@
 /* fst_measure_track() on films of beads that the library moves: each kind of motion, and each fault of a film,
- * with what must come out; and the coverage of errors over a few films (test_measure_coverage.c has many).
+ * with what must come out (test_measure_locked.c has beads that go with the magnet); and the coverage of errors over a
+ * few films (test_measure_coverage.c has many).
  * tests: measure/measure.c measure/clean.c measure/geometry.c measure/spectrum.c measure/drive.c measure/settle.c
  *   measure/winding.c measure/errors.c measure/sharpen.c measure/regress.c tracks/track.c
  * labels: numbers */
-#include "measure_coverage.h"
+#include "measure_cases.h"
 
 #include <stdlib.h>
-
-/* The settled motion at a drive, followed for so many seconds. */
-static made_motion motion_at(double hertz, double seconds)
-{
-    made_motion motion;
-    fst_params params = fst_default_params();
-    params.drive_frequency = hertz;
-    params.run_periods = ceil((seconds + 1.0) * hertz) + 150.0;
-    params.run_discard = 150.0;
-    params.run_rtol = 1e-9;
-    made_motion_follow(&motion, &params);
-    return motion;
-}
-
-static fst_measurement measured(const made_motion *motion, const made_film *film, double drive, double exposure,
-                                fst_track *track)
-{
-    fst_measure_options options = fst_default_measure_options();
-    fst_measurement m;
-    fst_error error = {FST_OK, "", ""};
-    options.drive = drive;
-    options.exposure = exposure;
-    made_track(motion, film, track);
-    if (fst_measure_track(track, &options, &m, &error) != FST_OK)
-        fail_msg("%s", error.sentence);
-    return m;
-}
 
 static int warned(const fst_measurement *m, const char *word)
 {
@@ -40,12 +14,6 @@ static int warned(const fst_measurement *m, const char *word)
     for (int i = 0; i < m->warning_count; ++i)
         found |= strstr(m->warnings[i], word) != NULL;
     return found;
-}
-
-static void assert_near(double found, double error, double truth)
-{
-    if (!(fabs(found - truth) < 4.0 * error))
-        fail_msg("%.9g +- %.3g, but the truth is %.9g", found, error, truth);
 }
 
 static void assert_as(const fst_measurement *m, const made_motion *motion, double scale)
@@ -488,116 +456,6 @@ static void test_faults(void **state)
     made_motion_free(&motion);
 }
 
-/* A bead that goes round with the magnet has the drive's frequency and no festoons. */
-static void test_locked(void **state)
-{
-    (void)state;
-    static const double drives[] = {3.0, 5.0}; /* locked; librating */
-    for (int i = 0; i < 2; ++i) {
-        made_motion motion = motion_at(drives[i], 8.0);
-        made_film film = made_film_plain();
-        fst_track track;
-        assert_int_equal(motion.regime, i ? FST_REGIME_LIBRATING : FST_REGIME_LOCKED);
-        film.seconds = 7.0;
-        for (int mirrored = 0; mirrored < 2; ++mirrored) {
-            film.mirrored = mirrored;
-            const fst_measurement m =
-                measured(&motion, &film, mirrored ? -motion.drive : motion.drive, NAN, &track);
-            assert_int_equal(m.motion, FST_MOTION_LOCKED);
-            assert_true(isnan(m.festoons) && isnan(m.festoons_error));
-            assert_near(m.bead_frequency_hz, fmax(m.bead_frequency_hz_error, 2e-4 * motion.drive),
-                        motion.drive);
-            assert_near(m.mean_r, fmax(m.mean_r_error, 1e-3 * m.mean_r), film.scale * motion.mean_r);
-            assert_near(m.std_r, fmax(m.std_r_error, 0.02 * m.std_r), film.scale * motion.std_r);
-            fst_track_free(&track);
-        }
-        film.mirrored = 0;
-        const fst_measurement m = measured(&motion, &film, NAN, NAN, &track);
-        assert_true(isnan(m.festoons) && m.warning_count > 0);
-        assert_near(m.bead_frequency_hz, fmax(m.bead_frequency_hz_error, 2e-4 * motion.drive), motion.drive);
-        fst_track_free(&track);
-        made_motion_free(&motion);
-    }
-}
-
-/* A motion from its start, almost without noise, at each usual rate: a bead that locks or librates has settled long
- * before a film of it ends, and what comes before is left out. */
-static void test_locking(void **state)
-{
-    (void)state;
-    static const double drives[] = {3.0, 8.5}, rates[] = {60.0, 120.0, 240.0};
-    for (int i = 0; i < 6; ++i) {
-        fst_params params = fst_default_params();
-        made_motion settled = motion_at(drives[i % 2], 1.0), motion;
-        made_film film = made_film_plain();
-        fst_track track;
-        params.drive_frequency = drives[i % 2];
-        params.run_periods = 41.0 * drives[i % 2];
-        params.run_discard = 0.0;
-        made_motion_follow(&motion, &params);
-        film.seconds = 40.0;
-        film.noise = 0.001;
-        film.fps = rates[i / 2];
-        const fst_measurement m = measured(&motion, &film, motion.drive, NAN, &track);
-        assert_near(m.mean_r, m.mean_r_error, film.scale * settled.mean_r);
-        assert_near(m.std_r, m.std_r_error, film.scale * settled.std_r);
-        assert_true(m.settled_after_s > 1.0 && m.settled_after_s < 10.0 && m.rejected == 0);
-        fst_track_free(&track);
-        made_motion_free(&motion);
-        made_motion_free(&settled);
-    }
-}
-
-/* A bead that is locked, and is pushed once: r changes without an oscillation, and one push says little of others. */
-static void test_pushed(void **state)
-{
-    (void)state;
-    made_motion motion = motion_at(3.0, 20.0);
-    made_film film = made_film_plain();
-    fst_track track;
-    fst_measure_options options = fst_default_measure_options();
-    fst_error error;
-    film.seconds = 20.0;
-    film.fps = 60.0;
-    film.noise = 0.0;
-    fst_measurement m = measured(&motion, &film, motion.drive, NAN, &track);
-    assert_int_equal(m.rejected, 0); /* rounding errors are no wild places */
-    fst_track_free(&track);
-    film.noise = 0.1;
-    m = measured(&motion, &film, motion.drive, NAN, &track);
-    for (int k = -80; k <= 80; ++k) {
-        const size_t at = track.rows / 2 + (size_t)(k + 80);
-        const double push = 0.02 * exp(-k * k / 800.0);
-        track.x[at] += push * (track.x[at] - m.centre[0]);
-        track.y[at] += push * (track.y[at] - m.centre[1]);
-    }
-    options.drive = motion.drive;
-    assert_int_equal(fst_measure_track(&track, &options, &m, &error), FST_OK);
-    assert_true(m.std_r > 1e-3 * m.mean_r && m.std_r < 4.0 * m.std_r_error);
-    fst_track_free(&track);
-    made_motion_free(&motion);
-}
-
-/* Of films of locked beads, with every fault that a film may have, none has festoons. */
-static void test_50_locked_films(void **state)
-{
-    (void)state;
-    made_motion motion = motion_at(3.0, 15.0);
-    uint64_t chance = 20260104;
-    for (int i = 0; i < 50; ++i) {
-        int has_drive;
-        const made_film film = random_film(&chance, 14.0, &has_drive);
-        fst_track track;
-        const fst_measurement m =
-            measured(&motion, &film, has_drive ? (film.mirrored ? -motion.drive : motion.drive) : NAN,
-                     film.exposure > 0 ? film.exposure : NAN, &track);
-        if (!isnan(m.festoons) || !isnan(m.festoons_error))
-            fail_msg("film %d of a locked bead has %g festoons", i, m.festoons);
-        fst_track_free(&track);
-    }
-    made_motion_free(&motion);
-}
-
 static fst_status refuse(void *user, double fraction, const char *what, fst_error *error)
 {
     double *last = user;
@@ -660,10 +518,6 @@ int main(void)
         cmocka_unit_test(test_exposure),
         cmocka_unit_test(test_tilt),
         cmocka_unit_test(test_faults),
-        cmocka_unit_test(test_locked),
-        cmocka_unit_test(test_locking),
-        cmocka_unit_test(test_pushed),
-        cmocka_unit_test(test_50_locked_films),
         cmocka_unit_test(test_interruption),
         cmocka_unit_test(test_20_films),
         cmocka_unit_test(test_60_coarse_films),

@@ -1,5 +1,5 @@
 /* Error bars of means that keep the limit: librations in runs of any length, orbits with the symmetry S2 at
- * loose tolerances; and verdicts that a loose tolerance cannot tell.
+ * loose tolerances, dry rolling; and verdicts that a loose tolerance cannot tell.
  * tests: observe/means.c observe/swings.c study/drift.c
  * labels: numbers */
 #include "few_rows.h"
@@ -155,6 +155,32 @@ static void test_no_error_of_what_drifts(void **unused)
                 isnan(run.mean_alpha_dot_error));
 }
 
+/* A bead that rolls inside the cone of static friction and comes near its edge: nothing damps what steps lose, and
+ * whether it slips there is known at a tight tolerance only. */
+static void test_rolling(void **state)
+{
+    (void)state;
+    fst_params p = bead(8.0, 1.5);
+    p.friction_law = FST_FRICTION_COULOMB;
+    p.friction_mu = 0.4;
+    p.run_rtol = 1e-11;
+    const fst_run_result sure = run_of(&p);
+    assert_int_equal(sure.never_slips, 0);
+    assert_null(strstr(sure.reason, "run.rtol"));
+    for (int i = 0; i < 2; ++i) {
+        p.run_rtol = i ? 1e-8 : 1e-6;
+        const fst_run_result loose = run_of(&p);
+        assert_true(error_over_bar(loose.mean_r, sure.mean_r, loose.mean_r_error) < 0.5);
+        assert_true(error_over_bar(loose.mean_alpha_dot, sure.mean_alpha_dot, loose.mean_alpha_dot_error) <
+                    0.5);
+        assert_int_equal(loose.never_slips, -1);
+        assert_non_null(strstr(loose.reason, "whether the contact slips depends on run.rtol"));
+        assert_true(loose.sticking > 0.99);
+    }
+    p.friction_mu = 10.0;
+    assert_int_equal(run_of(&p).never_slips, 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -163,6 +189,7 @@ int main(void)
         cmocka_unit_test(test_symmetric_at_loose_tolerances),
         cmocka_unit_test(test_no_tilt_at_rest),
         cmocka_unit_test(test_no_error_of_what_drifts),
+        cmocka_unit_test(test_rolling),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

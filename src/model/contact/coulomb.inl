@@ -123,7 +123,7 @@ static inline FN(rubbing_change) FN(coulomb_rubbing_change)(const FN(coulomb) * 
     return d;
 }
 
-/* A disc of which it is known how its slip changes: the force, what it is of the greatest one, nu, and V. */
+/* The contact of a disc that creeps: its force, the share of mu N that this is, nu, and V. */
 typedef struct FN(disc_creep) {
     REAL force[2], dry, radius, share, nu, slip[2];
 } FN(disc_creep);
