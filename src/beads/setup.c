@@ -65,16 +65,19 @@ static fst_status check_kinds(const fst_params *p, int bead, fst_error *error)
             error, FST_BAD_INPUT, "friction.law",
             "beads that touch cannot all roll without slip: friction.law must be viscous, coulomb or none");
     if (p->model_dynamics != FST_DYNAMICS_RIGID)
-        return fst_fail(error, FST_BAD_INPUT, "model.dynamics",
-                        "several beads move as rigid spheres: model.dynamics must be rigid");
+        return fst_fail(
+            error, FST_BAD_INPUT, "model.dynamics",
+            "several beads, or one in a world, move as rigid spheres: model.dynamics must be rigid");
     if (p->magnet_shape == FST_MAGNET_GRID)
         return fst_fail(error, FST_BAD_INPUT, "magnet.shape",
                         "several beads, or one in a world, need the field in space, and the map of magnet.file "
                         "has that of one plane: "
                         "choose magnet.shape lines or parts");
     if (p->bead_material != FST_MATERIAL_HARD)
-        return fst_fail(error, FST_BAD_INPUT, "bead.material",
-                        "bead %d: several beads are hard magnets so far: bead.material must be hard", bead + 1);
+        return fst_fail(
+            error, FST_BAD_INPUT, "bead.material",
+            "bead %d: several beads, or one in a world, are hard magnets so far: bead.material must be hard",
+            bead + 1);
     return FST_OK;
 }
 
@@ -82,7 +85,7 @@ static fst_status check_kinds(const fst_params *p, int bead, fst_error *error)
 static fst_status check_dry(const fst_params *p, const fst_beads_options *options, fst_error *error)
 {
     static const char *const reason =
-        "several beads have dry friction at points, of one coefficient at the plate and "
+        "several beads, or one in a world, have dry friction at points, of one coefficient at the plate and "
         "one between beads: leave %s as it is";
     const char *key = NULL;
     if (options->pair_mu < 0)

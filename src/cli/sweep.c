@@ -30,7 +30,7 @@ static const option options[] = {
     {"arithmetic", EXPERT, FST_WORDS(FST_ARITHMETICS),
      "kind of arithmetic (the fastest that this processor has)"},
     {"lanes", EXPERT, "N",
-     "runs side by side on a thread: 1, 4 or 8 (what suits the processor); no row depends on it"},
+     "runs side by side on a thread: 8; avx2: 4; portable: 1, 4, 8; no row depends on it"},
     {"checkpoint", EXPERT, "SECONDS",
      "save the state of a run after so many seconds of work on it; a kill costs no more of it (3)"},
     {NULL, '\0', NULL, NULL},

@@ -376,7 +376,7 @@ static void test_refused(void **unused)
     check_refused(beads, 2, NULL, "friction.law must be viscous, coulomb or none");
     two_beads(180, beads);
     beads[1].bead_material = FST_MATERIAL_MIXED;
-    check_refused(beads, 2, NULL, "bead 2: several beads are hard magnets");
+    check_refused(beads, 2, NULL, "bead 2: several beads, or one in a world, are hard magnets");
     two_beads(180, beads);
     beads[0].model_dynamics = FST_DYNAMICS_FARAGO2020;
     check_refused(beads, 2, NULL, "model.dynamics must be rigid");
