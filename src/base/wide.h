@@ -14,32 +14,8 @@
 #include "base/real_scalar.h"
 #include "base/sums.h"
 
-/* The bodies are compiled once more: undefine the kind of number that the earlier headers brought.  The
- * portable form keeps the products and quotients of real_scalar.h. */
-#undef ENDS
-#undef ENDS_GROUPS
-#undef ENDS_OF
-#undef ENDS_SQRT
-#undef END
-#undef REAL
-#undef R
-#undef FN
-#undef REAL_SQRT
-#undef REAL_ABS
-#undef REAL_MAX
-#undef REAL_IS_SCALAR
-#undef REAL_MASK
-#undef REAL_LESS
-#undef REAL_LESS_EQUAL
-#undef REAL_EVERYWHERE
-#undef REAL_ANY
-#undef REAL_SELECT
-#undef REAL_OF
-#undef RHS_KIND
-#undef REAL_BITS
-#undef REAL_PAIR
-#undef REAL_AS_BITS
-#undef REAL_OF_BITS
+/* The portable form keeps the products and quotients of real_scalar.h. */
+#include "base/real_anew.h"
 
 typedef double fst_wide __attribute__((vector_size(8 * FST_LANES), may_alias));
 typedef long long fst_wide_bits __attribute__((vector_size(8 * FST_LANES), may_alias));

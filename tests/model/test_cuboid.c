@@ -1,6 +1,6 @@
 /* The field of a block: against quadrature, against its own differences, against itself in other pieces and
  * places, and double against long double wherever a formula could lose its digits.
- * tests: model/source/cuboid.inl model/source/part_local.inl
+ * tests: model/source/cuboid.inl model/source/part_local.inl model/source/parts.inl model/two_parts.c
  * labels: long-double */
 #include "blocks_ld.h"
 #include "golden_parts.h"
@@ -239,6 +239,57 @@ static void keep_greatest(double worst[3], const double error[3])
         worst[what] = fmax(worst[what], error[what]);
 }
 
+/* Two parts of one kind are seen at once, each with the bits that it would have alone: near and far, beside an edge's
+ * extension, turned, and an odd one. */
+static void test_two_at_once(void **unused)
+{
+    (void)unused;
+    static const unsigned char kinds_of[][3] = {{FST_PART_CUBOID, FST_PART_CUBOID, FST_PART_DIPOLE},
+                                                {FST_PART_CYLINDER, FST_PART_CYLINDER, FST_PART_CYLINDER},
+                                                {FST_PART_CUBOID, FST_PART_DIPOLE, FST_PART_DIPOLE}};
+    uint64_t seed = 36;
+    for (int trial = 0; trial < 3000; ++trial) {
+        fst_kinds kinds = {.source = FST_MAGNET_PARTS, .pieces = 3};
+        fst_parts_double all;
+        memset(&all, 0, sizeof all);
+        memcpy(kinds.part, kinds_of[trial % 3], 3);
+        for (int i = 0; i < 3; ++i) {
+            fst_part_double *part = &all.part[i];
+            kinds.part_turned[i] = (trial + i) % 4 == 0;
+            for (int k = 0; k < 3; ++k) {
+                part->centre[k] = uniform(&seed, -1, 1);
+                part->half[k] = BLOCKS[(trial + i) % BLOCK_COUNT].half[k] / 16;
+                part->j[k] = uniform(&seed, -1, 1);
+            }
+            part->half[1] = kinds.part[i] == FST_PART_CYLINDER ? part->half[0] : part->half[1];
+            fst_set_axes_double((const double[4]){30.0 * i, 0.3, -0.2, 0.9}, part->axes);
+        }
+        const double far = trial % 5 == 0 ? 40 : 2;
+        const double x =
+            trial % 7 == 0 ? all.part[0].centre[0] + all.part[0].half[0] : uniform(&seed, -far, far);
+        const double y = uniform(&seed, -far, far), z = 3.1;
+        double v[NUMBERS], sum[NUMBERS] = {0}, b[3];
+        fst_local_field_double at;
+        fst_gradient_double g;
+        for (int i = 0; i < 3; ++i) {
+            fst_kinds one = {.source = FST_MAGNET_PARTS, .pieces = 1};
+            const fst_parts_double alone = {.part = {all.part[i]}};
+            one.part[0] = kinds.part[i];
+            one.part_turned[0] = kinds.part_turned[i];
+            fst_parts_look_double(&alone, &one, x, y, z, &at);
+            numbers_of(&at, v);
+            for (int k = 0; k < NUMBERS; ++k)
+                sum[k] += v[k];
+        }
+        fst_parts_look_double(&all, &kinds, x, y, z, &at);
+        fst_parts_field_double(&all, &kinds, x, y, z, b, &g);
+        numbers_of(&at, v);
+        assert_memory_equal(v, sum, sizeof v);
+        assert_memory_equal(b, at.b, sizeof b);
+        assert_memory_equal(&g, &at.gradient, 5 * sizeof g.xx);
+    }
+}
+
 /* Errors of B over |B|, of G and T alike, against long double: of four blocks, among them a rod 24 times as
  * long as it is thick and a plate of 32 times its thickness.  Before 10 half diagonals the cancellation of the
  * opposite faces of these two is seen, most in the gradient; beyond them there is none. */
@@ -327,6 +378,7 @@ int main(void)
         cmocka_unit_test(test_differences), cmocka_unit_test(test_cut_in_two),
         cmocka_unit_test(test_symmetry),    cmocka_unit_test(test_digits),
         cmocka_unit_test(test_extensions),  cmocka_unit_test(test_switch),
+        cmocka_unit_test(test_two_at_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
