@@ -57,10 +57,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "model/tangent.inl"
 #include "ode/creep.h"
 #include "ode/flight.h"
 #include "ode/slip.h"
+#include "ode/two_neighbours.h"
 
 enum { STAGES = 12 };
 
@@ -218,32 +218,41 @@ static void stop_what_stops(fst_neighbours *b, const fst_world_double *c, const 
 
 /* ------------------------------------------------------------------ along a step */
 
-/* The derivatives of the differences by theta at a stage. */
+/* The derivatives of one difference by theta at a stage, where the motion was linearised and changes by f in time. */
+static void slope_of_one(const fst_world_double *c, const fst_modes_double *m, double omega, const double *y,
+                         const fst_linear_double *linear, const double *f, const double *seen, double *k)
+{
+    if (fst_in_flight_double(m)) {
+        fst_change_aloft_double(c, omega, y, linear, seen, k);
+        return;
+    }
+    const double pace = fst_pace_double(c, m, y), faster = fst_pace_change_double(c, m, y, seen);
+    fst_change_along_double(c, omega, y, linear, seen, k);
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        k[i] = pace * k[i] + faster * f[i];
+    k[FST_STEP_TIME] = faster;
+    k[FST_HEIGHT] = k[FST_CLIMB] = 0.0;
+}
+
+/* Those of all. */
 static void slopes(const fst_neighbours *b, const fst_world_double *c, const fst_modes_double *m, double omega,
                    const double *y, double d[FST_NEIGHBOURS][FST_NUMBERS],
                    double k[FST_NEIGHBOURS][FST_NUMBERS])
 {
     fst_linear_double linear;
-    double f[FST_STATE_SIZE], by[FST_NUMBERS], seen[FST_NUMBERS];
+    double f[FST_STATE_SIZE], by[FST_NUMBERS], seen[FST_NEIGHBOURS][FST_NUMBERS];
     const int flies = fst_in_flight_double(m);
-    const double pace = fst_pace_double(c, m, y);
     fst_linearise_double(c, m, omega, y, &linear, f);
     if (c->kinds.flies && !flies) /* the step that ends at lift-off, N = 0, belongs to N > 0 all the way */
         linear.contact.load = fmax(linear.contact.load, DBL_MIN);
     by_parameter(b, c, m, y, &linear, by);
-    for (int column = 0; column < b->count; ++column) {
-        neighbour(b, c, y, column, d[column], seen);
-        if (flies) {
-            fst_change_aloft_double(c, omega, y, &linear, seen, k[column]);
-            continue;
-        }
-        const double faster = fst_pace_change_double(c, m, y, seen);
-        fst_change_along_double(c, omega, y, &linear, seen, k[column]);
-        for (int i = 0; i < FST_STATE_SIZE; ++i)
-            k[column][i] = pace * k[column][i] + faster * f[i];
-        k[column][FST_STEP_TIME] = faster;
-        k[column][FST_HEIGHT] = k[column][FST_CLIMB] = 0.0;
-    }
+    for (int column = 0; column < b->count; ++column)
+        neighbour(b, c, y, column, d[column], seen[column]);
+    if (b->count > 1 && fst_neighbours_pair(&c->kinds))
+        fst_neighbours_change(c, omega, y, &linear, f, b->count, seen, k);
+    else
+        for (int column = 0; column < b->count; ++column)
+            slope_of_one(c, m, omega, y, &linear, f, seen[column], k[column]);
     for (int i = 0; i < (flies ? FST_NUMBERS : FST_HEIGHT) && b->parameter >= 0; ++i)
         k[b->parameter][i] += by[i];
 }
@@ -255,17 +264,20 @@ static void carry_along_step(fst_neighbours *b, const fst_flow *flow)
     const fst_bead_step_double *s = &flow->step;
     double k[STAGES][FST_NEIGHBOURS][FST_NUMBERS], at[FST_NEIGHBOURS][FST_NUMBERS];
     for (int stage = 0; stage <= STAGES; ++stage) { /* the last is the end of the step */
-        memcpy(at, b->d, sizeof at);
-        for (int before = 0; before < stage; ++before) {
-            const double weight = s->h * weights[stage][before], *slope = k[before][0];
-            double *to = at[0];
-            for (int i = 0; i < b->count * FST_NUMBERS && weight != 0.0; ++i)
-                to[i] += weight * slope[i];
+        for (int column = 0; column < b->count; ++column) {
+            double sum[FST_NUMBERS]; /* in registers */
+            memcpy(sum, b->d[column], sizeof sum);
+            for (int before = 0; before < stage; ++before) {
+                const double weight = s->h * weights[stage][before], *slope = k[before][column];
+                for (int i = 0; weight != 0.0 && i < FST_NUMBERS; ++i)
+                    sum[i] += weight * slope[i];
+            }
+            memcpy(at[column], sum, sizeof sum);
         }
         if (stage < STAGES)
             slopes(b, FST_WORLD(s), FST_MODES(s), s->omega, s->stage[stage], at, k[stage]);
     }
-    memcpy(b->d, at, sizeof at);
+    memcpy(b->d, at, (size_t)b->count * sizeof *at);
     stop_what_stops(b, FST_WORLD(s), FST_MODES(s), s->end);
 }
 

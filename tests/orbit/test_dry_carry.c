@@ -1,12 +1,13 @@
 /* Tangents carried along motions with dry friction: against central differences of the flow, over slips, rests
  * and what lies between.
- * tests: orbit/dry_carry.c ode/neighbours.c */
+ * tests: orbit/dry_carry.c ode/neighbours.c ode/two_neighbours.c */
 #include "branches.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "ode/creep.h"
+#include "ode/neighbours.h"
 #include "orbit/family.h"
 
 #define TOLERANCE 1e-13
@@ -207,6 +208,50 @@ static void differences_converge(void **unused)
     assert_true(fine < coarse / 64.0 && coarse > 1e-9);
 }
 
+/* Where neighbours are in the end, of a bead that might fly or that cannot. */
+static void carry_neighbours(const fst_params *params, int flies, fst_neighbours *b)
+{
+    const double start[FST_STATE_SIZE] = {0.01, 0.72, 0.035, 0.062, -1, 0, 0, -0.51, 0.25, 0.15};
+    fst_params with = *params;
+    fst_model *model;
+    fst_flow *flow;
+    fst_error error;
+    int captures = 0;
+    with.impact_restitution = flies ? 0.5 : NAN;
+    const fst_flow_options o = fst_default_flow_options();
+    if (fst_model_new(&with, &model, &error) != FST_OK ||
+        fst_flow_new(model, &o, start, &flow, &error) != FST_OK)
+        fail_msg("%s", error.sentence);
+    for (int column = 0; column < b->count; ++column)
+        for (int i = 0; i < FST_STATE_SIZE; ++i)
+            b->d[column][i] = cos(3.0 * i + 5.0 * column);
+    for (fst_neighbours_start(b, flow); flow->t.high < 14.0; fst_neighbours_follow(b, flow)) {
+        if (fst_flow_step(flow, 14.0, &error) != FST_OK)
+            fail_msg("%s", error.sentence);
+        captures += flow->contact.slip.next == FST_MODE_STICK;
+    }
+    assert_true(captures >= 2);
+    fst_flow_free(flow);
+    fst_model_free(model);
+}
+
+/* Neighbours are carried two at a time, those of a bead that might fly one by one: of a motion on the plate both give
+ * the same bits, through slips, rests and onsets. */
+static void two_are_carried_like_one(void **unused)
+{
+    (void)unused;
+    const fst_params scenes[] = {dry_scene("coulomb", "farago2020", 0.2, 0.25, NAN),
+                                 dry_scene("coulomb", "rigid", 0.2, NAN, NAN),
+                                 dry_scene("coulomb", "rigid", 0.2, 0.25, 0.05)};
+    for (int k = 0; k < 3; ++k) {
+        static fst_neighbours two, one;
+        two = one = (fst_neighbours){.count = 9 - k, .parameter = -1};
+        carry_neighbours(&scenes[k], 0, &two);
+        carry_neighbours(&scenes[k], 1, &one);
+        assert_memory_equal(two.d, one.d, sizeof one.d);
+    }
+}
+
 /* Where a family of rolling locks ends on the cone, friction can just hold the contact: a slip there dies ever more
  * slowly, and creeps (ode/creep.c). */
 static void slips_at_the_cone_creep(void **unused)
@@ -235,8 +280,8 @@ static void slips_at_the_cone_creep(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(slips_at_the_cone_creep),
-                                       cmocka_unit_test(columns_against_differences),
-                                       cmocka_unit_test(differences_converge)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(slips_at_the_cone_creep), cmocka_unit_test(two_are_carried_like_one),
+        cmocka_unit_test(columns_against_differences), cmocka_unit_test(differences_converge)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

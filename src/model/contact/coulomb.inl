@@ -244,8 +244,9 @@ static inline void FN(coulomb_change)(const FN(coulomb) * law, const FN(contact)
     const REAL turning = mu * load * across * inverse_s;
     const REAL turned[2] = {-u[1], u[0]};
     const REAL_MASK sticks = FN(coulomb_sticks)(at), slips = FN(is_moving)(at->modes->contact);
-    REAL onset[2];
-    FN(lag_change)(&at->modes->onset, at->time, at->push, v, by->push, dv, mu * load, ddry, onset);
+    REAL onset[2] = {R(0.0), R(0.0)};
+    if (REAL_ANY(REAL_LESS(R(1.5), at->modes->contact)))
+        FN(lag_change)(&at->modes->onset, at->time, at->push, v, by->push, dv, mu * load, ddry, onset);
     for (int i = 0; i < 2; ++i) {
         const REAL slipping = REAL_MULADD(ddry, u[i], turning * turned[i]);
         const REAL released = REAL_SELECT(slips, slipping, onset[i]);

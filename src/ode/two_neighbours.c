@@ -1,0 +1,78 @@
+/* two_neighbours.c - how the neighbours of a motion change, two at a time in registers of two doubles. */
+#include "ode/two_neighbours.h"
+
+#include <stddef.h>
+
+#define FST_DRY_LANES
+#include "base/real_two.h"
+
+#include "base/twofold.inl"
+#include "model/bodies.inl"
+#include "model/tangent.inl"
+
+/* A state that was linearised, as two neighbours see it. */
+typedef struct view {
+    FN(world) world; /* but for its source */
+    FN(modes) modes;
+    FN(linear) linear;
+    REAL omega, pace, y[FST_STATE_SIZE], f[FST_STATE_SIZE];
+} view;
+
+/* Each of some numbers twice. */
+static void twice(const void *from, size_t bytes, void *to)
+{
+    const double *number = from;
+    REAL *two = to;
+    for (size_t i = 0; i < bytes / sizeof *number; ++i)
+        two[i] = REAL_OF(number[i]);
+}
+
+static void see_contact(view *v, const fst_contact_double *at)
+{
+    FN(contact) *two = &v->linear.contact;
+    twice(at->slip, sizeof at->slip, two->slip);
+    twice(at->push, sizeof at->push, two->push);
+    twice(at->modes, sizeof *at->modes, &v->modes);
+    two->load = REAL_OF(at->load);
+    two->time = REAL_OF(at->time);
+    two->share = REAL_OF(at->share);
+    two->modes = &v->modes;
+    two->patch = FST_PATCH_POINT;
+}
+
+static void change_two(const view *v, const double *seen[2], double *k[2])
+{
+    REAL tangent[FST_STATE_SIZE], change[FST_STATE_SIZE];
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        tangent[i] = (REAL){seen[0][i], seen[1][i]};
+    const REAL faster = FN(pace_change)(&v->world, &v->modes, v->y, tangent);
+    FN(change_along)(&v->world, v->omega, v->y, &v->linear, tangent, change);
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        change[i] = v->pace * change[i] + faster * v->f[i];
+    for (int lane = 0; lane < 2; ++lane) {
+        for (int i = 0; i < FST_STATE_SIZE; ++i)
+            k[lane][i] = change[i][lane];
+        k[lane][FST_STEP_TIME] = faster[lane];
+        k[lane][FST_HEIGHT] = k[lane][FST_CLIMB] = 0.0;
+    }
+}
+
+void fst_neighbours_change(const fst_world_double *c, double omega, const double *y,
+                           const fst_linear_double *linear, const double *f, int count,
+                           double seen[][FST_NUMBERS], double k[][FST_NUMBERS])
+{
+    view v;
+    v.world.kinds = c->kinds;
+    twice(&c->eps, offsetof(fst_world_double, source) - offsetof(fst_world_double, eps), &v.world.eps);
+    twice(&c->law.coulomb, sizeof c->law.coulomb, &v.world.law.coulomb);
+    twice(linear, offsetof(fst_linear_double, contact), &v.linear);
+    see_contact(&v, &linear->contact);
+    twice(y, sizeof v.y / 2, v.y);
+    twice(f, sizeof v.f / 2, v.f);
+    v.omega = REAL_OF(omega);
+    v.pace = FN(pace)(&v.world, &v.modes, v.y);
+    for (int first = 0; first < count; first += 2) {
+        const int second = first + 1 < count ? first + 1 : first; /* the last may be its own fellow */
+        change_two(&v, (const double *[]){seen[first], seen[second]}, (double *[]){k[first], k[second]});
+    }
+}
