@@ -381,6 +381,44 @@ static int has_ended(walk *w, const fst_place *start, int places, double h)
     return 1;
 }
 
+/* Under dry friction the multipliers of an orbit jump where it gains or loses a rest or a flight, so that the curve
+ * ends: whether they do so right beyond the last place, on the surface of solutions, which goes on. */
+static int ends_at_grazing(const walk *w, const fst_place *last)
+{
+    const fst_family family = fst_surface_first(&w->surface, last->second);
+    fst_heading way, across[2];
+    fst_node here, there;
+    fst_error ignored;
+    predict(w, SHORTEST_STEP, &way);
+    if (!fst_family_rests(&family) || last->s.segments == 0 || !turn_plane(w, &way, across) ||
+        fst_node_make(&family, &last->s, &here, &ignored) != FST_OK)
+        return 0;
+    for (double beyond = 2.0 * SHORTEST_STEP; beyond < 100.0 * SHORTEST_STEP; beyond *= 4.0) {
+        fst_place next = *last;
+        fst_place_move(&next, &across[0], beyond);
+        if (fst_place_correct(&w->surface, &next, across, &ignored) != FST_OK)
+            continue;
+        const fst_family beside = fst_surface_first(&w->surface, next.second);
+        if (fst_node_make(&beside, &next.s, &there, &ignored) == FST_OK && there.captures != here.captures)
+            return 1;
+    }
+    return 0;
+}
+
+/* No further point was found: where, and why. */
+static void lose(walk *w, const fst_error *why)
+{
+    const fst_place *last = &w->past[0];
+    if (ends_at_grazing(w, last))
+        fst_curve_end_set(&w->end, FST_END_LOST,
+                          "at %.10g, %.10g the orbit gains or loses a rest or a flight (grazing), where its "
+                          "multipliers jump",
+                          last->s.value, last->second);
+    else
+        fst_curve_end_set(&w->end, FST_END_LOST, "it could not be followed beyond %.10g, %.10g: %.90s",
+                          last->s.value, last->second, why->sentence);
+}
+
 /* One way along the curve from the first place. */
 static fst_status walk_on(walk *w, int branch, fst_branch *out, fst_error *error)
 {
@@ -395,8 +433,7 @@ static fst_status walk_on(walk *w, int branch, fst_branch *out, fst_error *error
         int tries = 0;
         while (take_step(w, h, &next, &tries, &why) != FST_OK)
             if ((h *= 0.5) < SHORTEST_STEP) {
-                fst_curve_end_set(&w->end, FST_END_LOST, "it could not be followed beyond %.10g, %.10g: %.90s",
-                                  w->past[0].s.value, w->past[0].second, why.sentence);
+                lose(w, &why);
                 return fst_watch_ask(w->watch, error);
             }
         const int left = excess(w, &next, &key) > 0;

@@ -3,6 +3,8 @@
  * labels: long */
 #include "special_curves.h"
 
+#include <string.h>
+
 static void curves_end_where_branches_say(void **state)
 {
     (void)state;
@@ -73,12 +75,64 @@ static void parameters_may_be_exchanged(void **state)
     fst_branch_free(&b);
 }
 
+/* Dry friction, under two blocks: a pitchfork's curve runs into that of a grazing, ends there, and says so.  A branch
+ * over the frequency has that grazing where the curve ends, and shortly before both points. */
+static void curves_end_at_grazings(void **state)
+{
+    (void)state;
+    static const char *const scene[][2] = {{"bead.radius", "2.5mm"},    {"bead.mass", "0.5g"},
+                                           {"bead.remanence", "1.2T"},  {"magnet.shape", "parts"},
+                                           {"magnet.depth", "16.2mm"},  {"friction.law", "coulomb"},
+                                           {"drive.frequency", "17Hz"}, {"friction.mu", "0.175"}};
+    fst_params params = fst_default_params();
+    fst_branch_options o = over_omega(FST_BRANCH_COUNTER, 16.7, 17.2);
+    fst_error error;
+    for (size_t i = 0; i < sizeof scene / sizeof *scene; ++i)
+        if (fst_params_set(&params, scene[i][0], scene[i][1], &error) != FST_OK)
+            fail_msg("%s", error.sentence);
+    params.magnet_part_count = 2;
+    for (int i = 0; i < 2; ++i)
+        params.magnet_parts[i] = (fst_magnet_part){.kind = FST_PART_CUBOID,
+                                                   .centre = {i ? -21.5e-3 : 21.5e-3},
+                                                   .size = {13e-3, 40e-3, 9e-3},
+                                                   .remanence = {0, 0, i ? -0.567 : 0.567}};
+    o.key = "drive.frequency";
+    o.second_key = "friction.mu";
+    o.second_from = 0.17;
+    o.second_to = 0.2;
+    o.special = FST_SPECIAL_PITCHFORK;
+    fst_branch b = followed(&params, &o);
+    assert_int_equal(b.branches, 1);
+    int ends = 0;
+    for (size_t i = 0; i < b.end_count; ++i) {
+        if (!strstr(b.ends[i].reason, "(grazing)"))
+            continue;
+        ++ends;
+        double mu;
+        assert_int_equal(sscanf(b.ends[i].reason, "at %*f, %lf", &mu), 1);
+        fst_branch_options over_one = over_omega(FST_BRANCH_COUNTER, 17.0, 17.2);
+        over_one.key = "drive.frequency";
+        params.friction_mu = mu;
+        fst_branch at = followed(&params, &over_one);
+        CHECK_CLOSE(special_near(&at, FST_SPECIAL_GRAZING, b.ends[i].value)->value, b.ends[i].value, 1e-4);
+        fst_branch_free(&at);
+        params.friction_mu = mu - 1e-5;
+        at = followed(&params, &over_one);
+        const double pitchfork = special_near(&at, FST_SPECIAL_PITCHFORK, b.ends[i].value)->value;
+        assert_true(pitchfork > special_near(&at, FST_SPECIAL_GRAZING, pitchfork)->value);
+        fst_branch_free(&at);
+    }
+    assert_int_equal(ends, 1);
+    fst_branch_free(&b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(curves_end_where_branches_say),
         cmocka_unit_test(points_between_are_special),
         cmocka_unit_test(parameters_may_be_exchanged),
+        cmocka_unit_test(curves_end_at_grazings),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
