@@ -92,8 +92,8 @@ void fst_two_parts_field(const FN(part) parts[2], int kind, REAL d[2][3], FN(loc
 void fst_two_parts_look(const FN(part) parts[2], int kind, REAL d[2][3], FN(local_field) found[2]);
 #endif
 
-/* B and G, and T where it is wanted, of part i along the magnet's axes or, where a register holds two numbers and
- * the next part is of the same kind, of both; returns of how many. */
+/* B and G, and T where it is wanted, of part i along the magnet's axes; where a register holds two numbers and the
+ * next part is of the same kind, whose field is long to compute, of both; returns of how many. */
 static inline __attribute__((always_inline)) int FN(look_at_next)(const FN(parts) * parts,
                                                                   const fst_kinds *kinds, int i,
                                                                   const REAL place[3], int with_bend,
@@ -105,7 +105,8 @@ static inline __attribute__((always_inline)) int FN(look_at_next)(const FN(parts
     REAL own[2][3];
     FN(place_in_part)(part, kinds->part_turned[i], place, own[0]);
 #ifdef REAL_PAIR
-    if (i + 1 < kinds->pieces && kinds->part[i + 1] == kind) {
+    const int is_long = kind == FST_PART_CUBOID || kind == FST_PART_CYLINDER;
+    if (is_long && i + 1 < kinds->pieces && kinds->part[i + 1] == kind) {
         count = 2;
         FN(place_in_part)(part + 1, kinds->part_turned[i + 1], place, own[1]);
         (with_bend ? fst_two_parts_look : fst_two_parts_field)(part, kind, own, found);
