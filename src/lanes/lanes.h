@@ -65,6 +65,10 @@ typedef struct fst_lane_engine {
     void (*make_anew)(void *batch, int lane, double size);
     void (*reload)(void *batch, int lane, const fst_flow *flow, double t_limit);
 
+    /* Dry contacts: carry an infinitesimal neighbour of the trajectory of each of these lanes along its last step,
+     * before advance().  `differences` has FST_STEP_TIME + 1 numbers of each lane (ode/neighbours.h). */
+    void (*carry)(const void *batch, unsigned lanes, double *differences);
+
     /* All that a lane knows between two steps, as `numbers` doubles.  restore() follows load() of the same
      * trajectory, which then goes on with the same bits as if it had never left. */
     int numbers;
@@ -107,7 +111,7 @@ typedef struct fst_lane_engine {
     /* The time, size and counts of a lane, as its flow has them; the drive does not change in lanes. */
     void (*extract_clock)(const void *batch, int lane, fst_flow *flow);
 
-    /* Of the same width and form; the engines of dry contacts have none. */
+    /* Of the same width and form. */
     fst_tangent_engine tangents;
 } fst_lane_engine;
 

@@ -65,6 +65,8 @@
 #include "ode/path.inl"
 #include "ode/step_control.inl"
 #if KNOWS_DRY
+#include "model/tangent.inl"
+#include "ode/carried.inl"
 #include "ode/paced.inl"
 #else
 #include "ode/tangent_step.inl"
@@ -543,6 +545,45 @@ static fst_lane_events watch(void *memory, unsigned accepted, unsigned observed,
     return events;
 }
 
+#if KNOWS_DRY
+/* The derivatives by theta of a difference d at a state. */
+RHS_KIND void difference_rhs(const FN(world) * c, const FN(modes) * m, REAL omega, const REAL *y, const REAL *d,
+                             REAL *k)
+{
+    FN(linear) l;
+    REAL f[FST_STATE_SIZE];
+    FN(linearise)(c, m, omega, y, &l, f);
+    FN(neighbour_slope)(c, m, omega, y, &l, f, FN(pace)(c, m, y), d, k);
+}
+
+/* As carry_along_step() of ode/neighbours.c does it, one difference a lane. */
+static void carry(const void *memory, unsigned lanes, double *differences)
+{
+    enum { STAGES = 12 };
+    const FN(bead_step) *s = &((const batch *)memory)->step;
+    const FN(world) *c = FST_WORLD(s);
+    const FN(modes) *m = FST_MODES(s);
+    REAL d[BEAD_NUMBERS], at[BEAD_NUMBERS], k[STAGES][BEAD_NUMBERS], slip[2];
+    memcpy(d, differences, sizeof d);
+    for (int stage = 0; stage <= STAGES; ++stage) {
+        FN(neighbour_at_stage)(s->h, stage, BEAD_NUMBERS, d, k[0], BEAD_NUMBERS, at);
+        if (stage < STAGES)
+            difference_rhs(c, m, s->omega, s->stage[stage], at, k[stage]);
+    }
+    const fst_wide_mask carried = fst_wide_mask_of(lanes), sticks = WIDE_LESS(R(0.5), FN(sticks)(c, m));
+    FN(slip)(c, at, slip);
+    for (int i = 0; i < 2; ++i)
+        slip[i] = fst_wide_select(sticks, -slip[i], R(0.0));
+    FN(change_neighbour_slip)(c, slip, at);
+    FN(slip)(c, at, slip); /* what rounding left */
+    for (int i = 0; i < 2; ++i)
+        at[FST_VX + i] = fst_wide_select(sticks, at[FST_VX + i] - slip[i], at[FST_VX + i]);
+    for (int i = 0; i < BEAD_NUMBERS; ++i)
+        d[i] = fst_wide_select(carried, at[i], d[i]);
+    memcpy(differences, d, sizeof d);
+}
+#endif
+
 #include "lanes/lane_observables.inl"
 #ifdef FST_FUSED
 #include "lanes/lane_extremes.inl"
@@ -575,6 +616,8 @@ const fst_lane_engine ENGINE = {
     .pass = pass,
     .make_anew = make_anew,
     .reload = reload,
+    .carry = carry,
+    .tangents = {.dry = &ENGINE},
 #else
     .tangents = TANGENT_ENGINE,
 #endif

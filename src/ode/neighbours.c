@@ -62,7 +62,10 @@
 #include "ode/slip.h"
 #include "ode/two_neighbours.h"
 
+#include "ode/carried.inl"
+
 enum { STAGES = 12 };
+const double fst_stage_weights[16][15] = DOP_WEIGHTS;
 
 /* ------------------------------------------------------------------ at one state */
 
@@ -162,22 +165,13 @@ static void slip_of(const fst_neighbours *b, const fst_world_double *c, const do
     fst_slip_double(c, seen, slip);
 }
 
-/* Change the slip of a neighbour by an impulse of the plate: the moment about the contact stays. */
-static void change_slip(const fst_world_double *c, const double change[2], double *d)
-{
-    d[FST_VX] += c->share * change[0];
-    d[FST_VY] += c->share * change[1];
-    d[FST_WX] += c->spin_up * change[1];
-    d[FST_WY] -= c->spin_up * change[0];
-}
-
 /* Take slips (and pivoting, of a disc) out. */
 static void stop_slips(fst_neighbours *b, const fst_world_double *c, const double *y)
 {
     for (int column = 0; column < b->count; ++column) {
         double slip[2], *d = b->d[column];
         slip_of(b, c, y, column, slip);
-        change_slip(c, (const double[2]){-slip[0], -slip[1]}, d);
+        fst_change_neighbour_slip_double(c, (const double[2]){-slip[0], -slip[1]}, d);
         slip_of(b, c, y, column, slip); /* what rounding left */
         d[FST_VX] -= slip[0];
         d[FST_VY] -= slip[1];
@@ -195,7 +189,7 @@ static void turn_slips(fst_neighbours *b, const fst_world_double *c, const fst_m
         neighbour(b, c, y, column, d, seen);
         fst_slip_double(c, seen, slip);
         fst_creep_slip_change(c, m, omega, y, seen, turned);
-        change_slip(c, (const double[2]){turned[0] - slip[0], turned[1] - slip[1]}, d);
+        fst_change_neighbour_slip_double(c, (const double[2]){turned[0] - slip[0], turned[1] - slip[1]}, d);
     }
 }
 
@@ -226,11 +220,7 @@ static void slope_of_one(const fst_world_double *c, const fst_modes_double *m, d
         fst_change_aloft_double(c, omega, y, linear, seen, k);
         return;
     }
-    const double pace = fst_pace_double(c, m, y), faster = fst_pace_change_double(c, m, y, seen);
-    fst_change_along_double(c, omega, y, linear, seen, k);
-    for (int i = 0; i < FST_STATE_SIZE; ++i)
-        k[i] = pace * k[i] + faster * f[i];
-    k[FST_STEP_TIME] = faster;
+    fst_neighbour_slope_double(c, m, omega, y, linear, f, fst_pace_double(c, m, y), seen, k);
     k[FST_HEIGHT] = k[FST_CLIMB] = 0.0;
 }
 
@@ -249,7 +239,7 @@ static void slopes(const fst_neighbours *b, const fst_world_double *c, const fst
     for (int column = 0; column < b->count; ++column)
         neighbour(b, c, y, column, d[column], seen[column]);
     if (b->count > 1 && fst_neighbours_pair(&c->kinds))
-        fst_neighbours_change(c, omega, y, &linear, f, b->count, seen, k);
+        fst_slopes_of_two(c, omega, y, &linear, f, b->count, seen, k);
     else
         for (int column = 0; column < b->count; ++column)
             slope_of_one(c, m, omega, y, &linear, f, seen[column], k[column]);
@@ -260,20 +250,12 @@ static void slopes(const fst_neighbours *b, const fst_world_double *c, const fst
 /* Carry the differences along the flow's last step, by its own stages. */
 static void carry_along_step(fst_neighbours *b, const fst_flow *flow)
 {
-    static const double weights[16][15] = DOP_WEIGHTS;
     const fst_bead_step_double *s = &flow->step;
     double k[STAGES][FST_NEIGHBOURS][FST_NUMBERS], at[FST_NEIGHBOURS][FST_NUMBERS];
     for (int stage = 0; stage <= STAGES; ++stage) { /* the last is the end of the step */
-        for (int column = 0; column < b->count; ++column) {
-            double sum[FST_NUMBERS]; /* in registers */
-            memcpy(sum, b->d[column], sizeof sum);
-            for (int before = 0; before < stage; ++before) {
-                const double weight = s->h * weights[stage][before], *slope = k[before][column];
-                for (int i = 0; weight != 0.0 && i < FST_NUMBERS; ++i)
-                    sum[i] += weight * slope[i];
-            }
-            memcpy(at[column], sum, sizeof sum);
-        }
+        for (int column = 0; column < b->count; ++column)
+            fst_neighbour_at_stage_double(s->h, stage, FST_NUMBERS, b->d[column], k[0][column],
+                                          FST_NEIGHBOURS * FST_NUMBERS, at[column]);
         if (stage < STAGES)
             slopes(b, FST_WORLD(s), FST_MODES(s), s->omega, s->stage[stage], at, k[stage]);
     }
@@ -593,11 +575,16 @@ int fst_neighbours_known(const fst_flow *flow)
     return !(c->kinds.patch && held) || c->law.coulomb.holding > fst_coulomb_mu_double(&c->law.coulomb, 0.0);
 }
 
+void fst_neighbours_change(fst_neighbours *b, const fst_flow *flow)
+{
+    if (fst_contact_changes(flow))
+        change_mode(b, flow);
+}
+
 void fst_neighbours_follow(fst_neighbours *b, const fst_flow *flow)
 {
     carry_along_step(b, flow);
-    if (fst_contact_changes(flow))
-        change_mode(b, flow);
+    fst_neighbours_change(b, flow);
 }
 
 void fst_neighbours_at_equal_times(fst_neighbours *b, const fst_flow *flow)

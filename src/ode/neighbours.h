@@ -23,6 +23,9 @@ void fst_neighbours_start(fst_neighbours *b, fst_flow *flow);
 /* Carry them along the flow's last step, and through the change of mode at its end. */
 void fst_neighbours_follow(fst_neighbours *b, const fst_flow *flow);
 
+/* The change alone, of neighbours that were carried along in lanes. */
+void fst_neighbours_change(fst_neighbours *b, const fst_flow *flow);
+
 /* Whether the flow's last step, and what follows it, is a motion of which neighbours are known: no disc
  * that is held by a static friction no stronger than sliding friction. */
 int fst_neighbours_known(const fst_flow *flow);

@@ -2,6 +2,7 @@
 #include "ode/two_neighbours.h"
 
 #include <stddef.h>
+#include <string.h>
 
 #define FST_DRY_LANES
 #include "base/real_two.h"
@@ -9,6 +10,8 @@
 #include "base/twofold.inl"
 #include "model/bodies.inl"
 #include "model/tangent.inl"
+
+#include "ode/carried.inl"
 
 /* A state that was linearised, as two neighbours see it. */
 typedef struct view {
@@ -42,24 +45,20 @@ static void see_contact(view *v, const fst_contact_double *at)
 
 static void change_two(const view *v, const double *seen[2], double *k[2])
 {
-    REAL tangent[FST_STATE_SIZE], change[FST_STATE_SIZE];
+    REAL tangent[FST_STATE_SIZE], change[FST_STEP_TIME + 1];
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         tangent[i] = (REAL){seen[0][i], seen[1][i]};
-    const REAL faster = FN(pace_change)(&v->world, &v->modes, v->y, tangent);
-    FN(change_along)(&v->world, v->omega, v->y, &v->linear, tangent, change);
-    for (int i = 0; i < FST_STATE_SIZE; ++i)
-        change[i] = v->pace * change[i] + faster * v->f[i];
+    FN(neighbour_slope)(&v->world, &v->modes, v->omega, v->y, &v->linear, v->f, v->pace, tangent, change);
     for (int lane = 0; lane < 2; ++lane) {
-        for (int i = 0; i < FST_STATE_SIZE; ++i)
+        for (int i = 0; i <= FST_STEP_TIME; ++i)
             k[lane][i] = change[i][lane];
-        k[lane][FST_STEP_TIME] = faster[lane];
         k[lane][FST_HEIGHT] = k[lane][FST_CLIMB] = 0.0;
     }
 }
 
-void fst_neighbours_change(const fst_world_double *c, double omega, const double *y,
-                           const fst_linear_double *linear, const double *f, int count,
-                           double seen[][FST_NUMBERS], double k[][FST_NUMBERS])
+void fst_slopes_of_two(const fst_world_double *c, double omega, const double *y,
+                       const fst_linear_double *linear, const double *f, int count, double seen[][FST_NUMBERS],
+                       double k[][FST_NUMBERS])
 {
     view v;
     v.world.kinds = c->kinds;

@@ -15,8 +15,8 @@ static inline int fst_neighbours_pair(const fst_kinds *kinds)
 
 /* The derivatives by theta of the differences `seen` of `count` neighbours from the motion at y, which was linearised
  * and changes by f in time; each has the bits that it would have alone. */
-void fst_neighbours_change(const fst_world_double *c, double omega, const double *y,
-                           const fst_linear_double *linear, const double *f, int count,
-                           double seen[][FST_NUMBERS], double k[][FST_NUMBERS]);
+void fst_slopes_of_two(const fst_world_double *c, double omega, const double *y,
+                       const fst_linear_double *linear, const double *f, int count, double seen[][FST_NUMBERS],
+                       double k[][FST_NUMBERS]);
 
 #endif

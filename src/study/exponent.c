@@ -29,10 +29,10 @@
 #include "base/elementary.h"
 #include "base/error.h"
 #include "base/watch.h"
-#include "lanes/lanes.h"
 #include "ode/flight.h"
 #include "ode/neighbours.h"
 #include "study/growth.h"
+#include "study/lane_contact.h"
 
 /* Exponents are computed at these tolerances where the run's own is tighter: the regime comes out the same, and
  * what the steps' errors change is far less than the exponent's error bar (docs/regimes.md).  Without friction
@@ -256,18 +256,30 @@ static double project_neighbour(fst_neighbours *b, const fst_flow *flow)
     return length;
 }
 
-/* The vector follows the flow through its changes of mode (ode/neighbours.c), which lanes do not know.  Work
- * that was interrupted begins anew, and ends with the same bits. */
+/* Any direction will do. */
+static fst_neighbours one_vector(fst_flow *flow)
+{
+    fst_neighbours b = {.count = 1, .parameter = -1};
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        b.d[0][i] = 1.0 / (1.0 + i);
+    fst_neighbours_start(&b, flow);
+    return b;
+}
+
+static double end_of_piece(const follower *f)
+{
+    return (f->done + 1.0) * f->piece;
+}
+
+/* The vector follows the flow through its changes of mode (ode/neighbours.c).  Work that was interrupted begins
+ * anew, and ends with the same bits. */
 static fst_status follow_dry(fst_exponent *asked, fst_flow *flow, double rtol, const fst_progress *progress,
                              fst_error *error)
 {
     follower f = follower_of(asked, rtol);
-    fst_neighbours b = {.count = 1, .parameter = -1};
-    for (int i = 0; i < FST_STATE_SIZE; ++i)
-        b.d[0][i] = 1.0 / (1.0 + i); /* any direction will do */
-    fst_neighbours_start(&b, flow);
+    fst_neighbours b = one_vector(flow);
     for (unsigned steps = 1; !f.over; ++steps) {
-        const double end = (f.done + 1.0) * f.piece;
+        const double end = end_of_piece(&f);
         fst_status status =
             progress && steps % STEPS_UNTOLD == 0 ? fst_tell(progress, f.done / f.pieces, NULL, error) : FST_OK;
         if (status != FST_OK)
@@ -288,29 +300,172 @@ static fst_status follow_dry(fst_exponent *asked, fst_flow *flow, double rtol, c
     return FST_OK;
 }
 
-static fst_status dry_exponent(fst_exponent *asked, const fst_progress *progress, fst_error *error)
+/* The tolerance, and what it makes of the modes, too. */
+static double dry_tolerance(const fst_exponent *asked)
 {
-    const double rtol = fmax(asked->rtol, LOOSEST_WITHOUT_FRICTION); /* what it makes of the modes, too */
+    return fmax(asked->rtol, LOOSEST_WITHOUT_FRICTION);
+}
+
+static fst_status dry_flow(const fst_exponent *asked, fst_flow **flow, fst_error *error)
+{
     fst_model model;
-    fst_flow *flow;
     fst_flow_options o = fst_default_flow_options();
     memset(&model, 0, sizeof model);
     model.world = *asked->world;
     model.groups.omega = asked->world->omega;
-    o.rtol = rtol;
+    o.rtol = dry_tolerance(asked);
     for (int i = 0; i < FST_STATE_SIZE; ++i)
-        o.atol[i] = rtol;
-    fst_status status = fst_flow_new(&model, &o, asked->state, &flow, error);
+        o.atol[i] = o.rtol;
+    return fst_flow_new(&model, &o, asked->state, flow, error);
+}
+
+static fst_status dry_exponent(fst_exponent *asked, const fst_progress *progress, fst_error *error)
+{
+    fst_flow *flow;
+    fst_status status = dry_flow(asked, &flow, error);
     if (status == FST_OK)
-        status = follow_dry(asked, flow, rtol, progress, error);
+        status = follow_dry(asked, flow, dry_tolerance(asked), progress, error);
     fst_flow_free(flow);
+    return status;
+}
+
+/* ------------------------------------------------------------------ the same in lanes */
+
+/* Numbers of a vector that lanes carry. */
+enum { CARRIED = FST_STEP_TIME + 1 };
+
+/* Lanes carry the vectors along whole steps; where a mode or a piece ends, the flows do. */
+typedef struct dry_batch {
+    fst_lane_flows at;
+    fst_lane_view view;
+    follower followers[FST_MOST_LANES];
+    fst_neighbours vectors[FST_MOST_LANES];
+    double carried[CARRIED * FST_MOST_LANES]; /* the same vectors, as the engine has them */
+} dry_batch;
+
+static void take_vector(dry_batch *b, int l)
+{
+    for (int i = 0; i < CARRIED; ++i)
+        b->vectors[l].d[0][i] = b->carried[i * b->at.engine->width + l];
+}
+
+static void put_vector(dry_batch *b, int l)
+{
+    for (int i = 0; i < CARRIED; ++i)
+        b->carried[i * b->at.engine->width + l] = b->vectors[l].d[0][i];
+}
+
+/* A lane goes on from where its flow stands. */
+static void go_on(dry_batch *b, int l)
+{
+    put_vector(b, l);
+    b->at.limits[l] = end_of_piece(&b->followers[l]);
+    fst_contact_begin_step(b->at.flows[l]);
+    b->at.engine->reload(b->at.memory, l, b->at.flows[l], b->at.limits[l]);
+}
+
+/* Another mode begins at the end of a lane's step. */
+static void turn(dry_batch *b, int l)
+{
+    fst_flow *flow = b->at.flows[l];
+    b->at.engine->extract_clock(b->at.memory, l, flow);
+    for (int i = 0; i < CARRIED; ++i)
+        flow->step.end[i] = b->view.end[i * b->at.engine->width + l];
+    take_vector(b, l);
+    fst_neighbours_change(&b->vectors[l], flow);
+    go_on(b, l);
+}
+
+/* A piece ends in a lane's step. */
+static void land(dry_batch *b, int l)
+{
+    fst_lane_land(&b->at, l);
+    take_vector(b, l);
+    fst_neighbours_follow(&b->vectors[l], b->at.flows[l]);
+    end_piece(&b->followers[l], project_neighbour(&b->vectors[l], b->at.flows[l]));
+    go_on(b, l);
+}
+
+/* One try in every lane; 0 if all are over. */
+static int step_dry(dry_batch *b, int count)
+{
+    const fst_lane_engine *engine = b->at.engine;
+    const fst_lane_tries tries = engine->try_steps(b->at.memory);
+    const fst_lane_contacts contacts = fst_lanes_look_at_contacts(&b->at, tries);
+    const unsigned accepted = tries.accepted | contacts.passed;
+    int at_work = 0;
+    engine->carry(b->at.memory, accepted, b->carried);
+    for (int l = 0; l < count; ++l) {
+        follower *f = &b->followers[l];
+        if (contacts.turned & fst_lane_bit(l))
+            turn(b, l);
+        if (contacts.landed & fst_lane_bit(l))
+            land(b, l);
+        if (tries.failed & fst_lane_bit(l))
+            f->over = f->asked->failed = 1;
+        if ((contacts.landed | tries.failed) & fst_lane_bit(l) && f->over) {
+            f->asked->rhs_calls = b->at.flows[l]->rhs_calls;
+            engine->release(b->at.memory, l);
+        }
+        at_work |= !f->over;
+    }
+    engine->advance(b->at.memory, accepted & ~contacts.turned);
+    return at_work;
+}
+
+static fst_status begin_dry(dry_batch *b, int l, fst_exponent *asked, fst_error *error)
+{
+    const fst_status status = dry_flow(asked, &b->at.flows[l], error);
+    if (status != FST_OK)
+        return status;
+    b->followers[l] = follower_of(asked, dry_tolerance(asked));
+    b->vectors[l] = one_vector(b->at.flows[l]);
+    b->at.engine->load(b->at.memory, l, b->at.flows[l], end_of_piece(&b->followers[l]));
+    go_on(b, l);
+    return FST_OK;
+}
+
+static double dry_fraction_done(const dry_batch *b, int count)
+{
+    double least = 1.0;
+    for (int l = 0; l < count; ++l)
+        least = fmin(least, b->followers[l].done / b->followers[l].pieces);
+    return least;
+}
+
+static fst_status dry_exponents(const fst_lane_engine *engine, fst_exponent *const *asked, int count,
+                                const fst_progress *progress, fst_error *error)
+{
+    const size_t bytes = (engine->bytes + 63) / 64 * 64;
+    dry_batch *b = calloc(1, sizeof *b);
+    void *memory = aligned_alloc(64, bytes);
+    fst_status status =
+        b && memory ? FST_OK : fst_fail(error, FST_NO_MEMORY, "Lyapunov exponent", "out of memory");
+    if (status == FST_OK) {
+        memset(memory, 0, bytes);
+        b->at.engine = engine;
+        b->at.memory = memory;
+        engine->view(memory, &b->view);
+    }
+    for (int l = 0; status == FST_OK && l < count; ++l)
+        status = begin_dry(b, l, asked[l], error);
+    for (unsigned steps = 1; status == FST_OK && step_dry(b, count); ++steps)
+        if (progress && steps % STEPS_UNTOLD == 0)
+            status = fst_tell(progress, dry_fraction_done(b, count), NULL, error);
+    for (int l = 0; b && l < count; ++l)
+        fst_flow_free(b->at.flows[l]);
+    free(memory);
+    free(b);
     return status;
 }
 
 fst_status fst_largest_exponents(const fst_tangent_engine *engine, fst_exponent *const *asked, int count,
                                  const fst_progress *progress, fst_error *error)
 {
-    if (asked[0]->world->kinds.dry) {
+    const fst_kinds *kinds = &asked[0]->world->kinds;
+    if (kinds->dry && kinds->modes && engine && engine->dry)
+        return dry_exponents(engine->dry, asked, count, progress, error);
+    if (kinds->dry) {
         fst_status status = FST_OK;
         for (int i = 0; i < count && status == FST_OK; ++i)
             status = dry_exponent(asked[i], progress, error);

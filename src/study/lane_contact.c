@@ -21,28 +21,39 @@ static double limit_of(const fst_row_worker *w, const fst_lane_batch *b, int l)
     return b == &w->observed || fst_window_is_open(window) ? window->span.until : window->span.from;
 }
 
-/* The step that a lane has tried, as the run's own flow has it. */
-static fst_flow *copy_try(const fst_row_worker *w, const fst_lane_batch *b, int l)
+static fst_lane_flows flows_of(const fst_row_worker *w, const fst_lane_batch *b, unsigned lanes)
 {
-    fst_flow *flow = b->lanes[l].run->flow;
-    w->engine->extract_clock(b->memory, l, flow);
-    w->engine->extract(b->memory, l, &flow->step);
-    w->engine->extract_path(b->memory, l, &flow->step);
+    fst_lane_flows at = {.engine = w->engine, .memory = b->memory};
+    for (int l = 0; (lanes >> l) != 0; ++l)
+        if (lanes & fst_lane_bit(l)) {
+            at.flows[l] = b->lanes[l].run->flow;
+            at.limits[l] = limit_of(w, b, l);
+        }
+    return at;
+}
+
+/* The step that a lane has tried, as the flow has it. */
+static fst_flow *copy_try(const fst_lane_flows *at, int l)
+{
+    fst_flow *flow = at->flows[l];
+    at->engine->extract_clock(at->memory, l, flow);
+    at->engine->extract(at->memory, l, &flow->step);
+    at->engine->extract_path(at->memory, l, &flow->step);
     return flow;
 }
 
-fst_lane_contacts fst_worker_look_at_contacts(fst_row_worker *w, fst_lane_batch *b, fst_lane_tries tries)
+fst_lane_contacts fst_lanes_look_at_contacts(const fst_lane_flows *at, fst_lane_tries tries)
 {
     fst_lane_contacts contacts = {.turned = tries.anew};
     for (int l = 0; (tries.contact >> l) != 0; ++l) {
         if (!(tries.contact & fst_lane_bit(l)))
             continue;
         double end;
-        fst_flow *flow = copy_try(w, b, l);
-        if (fst_contact_look_ahead(flow, limit_of(w, b, l), &end)) {
+        fst_flow *flow = copy_try(at, l);
+        if (fst_contact_look_ahead(flow, at->limits[l], &end)) {
             contacts.landed |= fst_lane_bit(l);
         } else if (end < 1.0) {
-            w->engine->make_anew(b->memory, l, end * flow->step.h);
+            at->engine->make_anew(at->memory, l, end * flow->step.h);
             flow->rhs_calls += DOP_TRY_EVALUATIONS + 1; /* the clock will count the other try */
         } else {
             contacts.passed |= fst_lane_bit(l);
@@ -51,8 +62,21 @@ fst_lane_contacts fst_worker_look_at_contacts(fst_row_worker *w, fst_lane_batch 
         }
     }
     if (contacts.passed)
-        w->engine->pass(b->memory, contacts.passed);
+        at->engine->pass(at->memory, contacts.passed);
     return contacts;
+}
+
+void fst_lane_land(const fst_lane_flows *at, int l)
+{
+    fst_flow *flow = copy_try(at, l);
+    flow->rhs_calls += DOP_TRY_EVALUATIONS; /* the clock does not count this step */
+    fst_contact_end_step(flow, at->limits[l]);
+}
+
+fst_lane_contacts fst_worker_look_at_contacts(fst_row_worker *w, fst_lane_batch *b, fst_lane_tries tries)
+{
+    const fst_lane_flows at = flows_of(w, b, tries.contact);
+    return fst_lanes_look_at_contacts(&at, tries);
 }
 
 void fst_worker_begin_mode(fst_row_worker *w, fst_lane_batch *b, int l)
@@ -84,11 +108,11 @@ static void hand_to_window(fst_row_worker *w, int l)
 int fst_worker_land(fst_row_worker *w, fst_lane_batch *b, int l)
 {
     fst_watched_run *run = b->lanes[l].run;
-    fst_flow *flow = copy_try(w, b, l);
+    fst_flow *flow = run->flow;
     const double *y = flow->step.y;
     const int looks_for_extremes = !w->engine->fused || ((w->tracked | ~w->in_window) & fst_lane_bit(l));
-    flow->rhs_calls += DOP_TRY_EVALUATIONS; /* the clock does not count this step */
-    fst_contact_end_step(flow, limit_of(w, b, l));
+    const fst_lane_flows at = flows_of(w, b, fst_lane_bit(l));
+    fst_lane_land(&at, l);
     flow->bead_angle_start = (fst_winding){(int64_t)b->view.turns_before[0][l], y[FST_X], y[FST_Y]};
     flow->bead_angle = flow->bead_angle_start;
     fst_flow_follow(flow, flow->step.end);

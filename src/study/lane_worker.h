@@ -3,7 +3,7 @@
 #ifndef FST_STUDY_LANE_WORKER_H
 #define FST_STUDY_LANE_WORKER_H
 
-#include "lanes/lanes.h"
+#include "study/lane_contact.h"
 #include "study/run_image.h"
 
 enum { FST_MOST_DEFERRED = 2 * FST_MOST_LANES };
@@ -69,11 +69,6 @@ typedef struct fst_row_worker {
     fst_error said;    /* and what it said */
 } fst_row_worker;
 
-static inline unsigned fst_lane_bit(int l)
-{
-    return 1u << l;
-}
-
 /* ------------------------------------------------------------------ places (lane_places.c) */
 
 /* What became of a job that was to begin. */
@@ -115,13 +110,7 @@ void fst_worker_extract_step(const fst_row_worker *w, const fst_lane_batch *b, i
 /* Whether such a step, which may end the run, does. */
 int fst_worker_ends_run(const fst_row_worker *w, const fst_lane_batch *b, int l);
 
-/* Dry contacts: what becomes of the steps that are good, but in which a mode or the way may end. */
-typedef struct fst_lane_contacts {
-    unsigned passed; /* these are accepted after all */
-    unsigned turned; /* accepted steps after which a mode begins, or an onset goes on */
-    unsigned landed; /* the way ends in these: not accepted, see fst_worker_land() */
-} fst_lane_contacts;
-
+/* Dry contacts: look at the steps that may end a mode or the way (lane_contact.h). */
 fst_lane_contacts fst_worker_look_at_contacts(fst_row_worker *w, fst_lane_batch *b, fst_lane_tries tries);
 
 /* After advance(): the mode of a lane begins. */
