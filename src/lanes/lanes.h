@@ -111,7 +111,7 @@ typedef struct fst_lane_engine {
     /* The time, size and counts of a lane, as its flow has them; the drive does not change in lanes. */
     void (*extract_clock)(const void *batch, int lane, fst_flow *flow);
 
-    /* Of the same width and form. */
+    /* Of the same width and form; the engines of dry contacts have none. */
     fst_tangent_engine tangents;
 } fst_lane_engine;
 

@@ -617,7 +617,6 @@ const fst_lane_engine ENGINE = {
     .make_anew = make_anew,
     .reload = reload,
     .carry = carry,
-    .tangents = {.dry = &ENGINE},
 #else
     .tangents = TANGENT_ENGINE,
 #endif

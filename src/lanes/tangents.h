@@ -11,8 +11,6 @@
 enum { FST_TANGENT_DIM = 2 * FST_STATE_SIZE };
 
 typedef struct fst_tangent_engine {
-    const struct fst_lane_engine
-        *dry; /* of dry contacts: it carries the vectors, and nothing follows; else NULL */
     int width;
     size_t bytes; /* to be aligned to 64 and zeroed */
 

@@ -335,28 +335,28 @@ static fst_status dry_exponent(fst_exponent *asked, const fst_progress *progress
 enum { CARRIED = FST_STEP_TIME + 1 };
 
 /* Lanes carry the vectors along whole steps; where a mode or a piece ends, the flows do. */
-typedef struct dry_batch {
-    fst_lane_flows at;
+struct fst_dry_exponents {
+    fst_lane_flows at; /* no flow: the lane is idle */
     fst_lane_view view;
     follower followers[FST_MOST_LANES];
     fst_neighbours vectors[FST_MOST_LANES];
     double carried[CARRIED * FST_MOST_LANES]; /* the same vectors, as the engine has them */
-} dry_batch;
+};
 
-static void take_vector(dry_batch *b, int l)
+static void take_vector(fst_dry_exponents *b, int l)
 {
     for (int i = 0; i < CARRIED; ++i)
         b->vectors[l].d[0][i] = b->carried[i * b->at.engine->width + l];
 }
 
-static void put_vector(dry_batch *b, int l)
+static void put_vector(fst_dry_exponents *b, int l)
 {
     for (int i = 0; i < CARRIED; ++i)
         b->carried[i * b->at.engine->width + l] = b->vectors[l].d[0][i];
 }
 
 /* A lane goes on from where its flow stands. */
-static void go_on(dry_batch *b, int l)
+static void go_on(fst_dry_exponents *b, int l)
 {
     put_vector(b, l);
     b->at.limits[l] = end_of_piece(&b->followers[l]);
@@ -365,7 +365,7 @@ static void go_on(dry_batch *b, int l)
 }
 
 /* Another mode begins at the end of a lane's step. */
-static void turn(dry_batch *b, int l)
+static void turn(fst_dry_exponents *b, int l)
 {
     fst_flow *flow = b->at.flows[l];
     b->at.engine->extract_clock(b->at.memory, l, flow);
@@ -377,7 +377,7 @@ static void turn(dry_batch *b, int l)
 }
 
 /* A piece ends in a lane's step. */
-static void land(dry_batch *b, int l)
+static void land(fst_dry_exponents *b, int l)
 {
     fst_lane_land(&b->at, l);
     take_vector(b, l);
@@ -386,16 +386,25 @@ static void land(dry_batch *b, int l)
     go_on(b, l);
 }
 
-/* One try in every lane; 0 if all are over. */
-static int step_dry(dry_batch *b, int count)
+/* The bead of a lane is done with. */
+static void leave(fst_dry_exponents *b, int l)
+{
+    b->followers[l].asked->rhs_calls = b->at.flows[l]->rhs_calls;
+    b->at.engine->release(b->at.memory, l);
+    fst_flow_free(b->at.flows[l]);
+    b->at.flows[l] = NULL;
+}
+
+/* One try in every lane; those whose beads are over. */
+static unsigned step_dry(fst_dry_exponents *b)
 {
     const fst_lane_engine *engine = b->at.engine;
     const fst_lane_tries tries = engine->try_steps(b->at.memory);
     const fst_lane_contacts contacts = fst_lanes_look_at_contacts(&b->at, tries);
     const unsigned accepted = tries.accepted | contacts.passed;
-    int at_work = 0;
+    unsigned over = 0;
     engine->carry(b->at.memory, accepted, b->carried);
-    for (int l = 0; l < count; ++l) {
+    for (int l = 0; ((contacts.turned | contacts.landed | tries.failed) >> l) != 0; ++l) {
         follower *f = &b->followers[l];
         if (contacts.turned & fst_lane_bit(l))
             turn(b, l);
@@ -403,17 +412,14 @@ static int step_dry(dry_batch *b, int count)
             land(b, l);
         if (tries.failed & fst_lane_bit(l))
             f->over = f->asked->failed = 1;
-        if ((contacts.landed | tries.failed) & fst_lane_bit(l) && f->over) {
-            f->asked->rhs_calls = b->at.flows[l]->rhs_calls;
-            engine->release(b->at.memory, l);
-        }
-        at_work |= !f->over;
+        if ((contacts.landed | tries.failed) & fst_lane_bit(l) && f->over)
+            over |= fst_lane_bit(l);
     }
     engine->advance(b->at.memory, accepted & ~contacts.turned);
-    return at_work;
+    return over;
 }
 
-static fst_status begin_dry(dry_batch *b, int l, fst_exponent *asked, fst_error *error)
+static fst_status begin_dry(fst_dry_exponents *b, int l, fst_exponent *asked, fst_error *error)
 {
     const fst_status status = dry_flow(asked, &b->at.flows[l], error);
     if (status != FST_OK)
@@ -425,47 +431,70 @@ static fst_status begin_dry(dry_batch *b, int l, fst_exponent *asked, fst_error 
     return FST_OK;
 }
 
-static double dry_fraction_done(const dry_batch *b, int count)
-{
-    double least = 1.0;
-    for (int l = 0; l < count; ++l)
-        least = fmin(least, b->followers[l].done / b->followers[l].pieces);
-    return least;
-}
-
-static fst_status dry_exponents(const fst_lane_engine *engine, fst_exponent *const *asked, int count,
-                                const fst_progress *progress, fst_error *error)
+fst_dry_exponents *fst_dry_exponents_new(const fst_lane_engine *engine)
 {
     const size_t bytes = (engine->bytes + 63) / 64 * 64;
-    dry_batch *b = calloc(1, sizeof *b);
+    fst_dry_exponents *b = calloc(1, sizeof *b);
     void *memory = aligned_alloc(64, bytes);
-    fst_status status =
-        b && memory ? FST_OK : fst_fail(error, FST_NO_MEMORY, "Lyapunov exponent", "out of memory");
-    if (status == FST_OK) {
-        memset(memory, 0, bytes);
-        b->at.engine = engine;
-        b->at.memory = memory;
-        engine->view(memory, &b->view);
+    if (!b || !memory) {
+        free(b);
+        free(memory);
+        return NULL;
     }
-    for (int l = 0; status == FST_OK && l < count; ++l)
-        status = begin_dry(b, l, asked[l], error);
-    for (unsigned steps = 1; status == FST_OK && step_dry(b, count); ++steps)
-        if (progress && steps % STEPS_UNTOLD == 0)
-            status = fst_tell(progress, dry_fraction_done(b, count), NULL, error);
-    for (int l = 0; b && l < count; ++l)
+    memset(memory, 0, bytes);
+    b->at.engine = engine;
+    b->at.memory = memory;
+    engine->view(memory, &b->view);
+    return b;
+}
+
+void fst_dry_exponents_free(fst_dry_exponents *b)
+{
+    for (int l = 0; b && l < FST_MOST_LANES; ++l)
         fst_flow_free(b->at.flows[l]);
-    free(memory);
+    if (b)
+        free(b->at.memory);
     free(b);
+}
+
+/* The lane of a bead, an idle one where it has none yet. */
+static int lane_of(const fst_dry_exponents *b, const fst_exponent *asked)
+{
+    int l = 0;
+    while (l < b->at.engine->width && !(b->at.flows[l] && b->followers[l].asked == asked))
+        ++l;
+    for (int k = 0; l == b->at.engine->width; ++k)
+        l = b->at.flows[k] ? l : k;
+    return l;
+}
+
+fst_status fst_dry_exponents_follow(fst_dry_exponents *b, fst_exponent *const *asked, int count, unsigned *over,
+                                    const fst_progress *progress, fst_error *error)
+{
+    int lanes[FST_MOST_LANES];
+    unsigned ends = 0;
+    fst_status status = FST_OK;
+    for (int i = 0; status == FST_OK && i < count; ++i) {
+        lanes[i] = lane_of(b, asked[i]);
+        if (!b->at.flows[lanes[i]])
+            status = begin_dry(b, lanes[i], asked[i], error);
+    }
+    for (unsigned steps = 1; status == FST_OK && (ends = step_dry(b)) == 0; ++steps)
+        if (steps % STEPS_UNTOLD == 0)
+            status = fst_tell(progress, 0.0, NULL, error);
+    *over = 0;
+    for (int i = 0; status == FST_OK && i < count; ++i)
+        if (ends & fst_lane_bit(lanes[i])) {
+            leave(b, lanes[i]);
+            *over |= 1u << i;
+        }
     return status;
 }
 
 fst_status fst_largest_exponents(const fst_tangent_engine *engine, fst_exponent *const *asked, int count,
                                  const fst_progress *progress, fst_error *error)
 {
-    const fst_kinds *kinds = &asked[0]->world->kinds;
-    if (kinds->dry && kinds->modes && engine && engine->dry)
-        return dry_exponents(engine->dry, asked, count, progress, error);
-    if (kinds->dry) {
+    if (asked[0]->world->kinds.dry) {
         fst_status status = FST_OK;
         for (int i = 0; i < count && status == FST_OK; ++i)
             status = dry_exponent(asked[i], progress, error);

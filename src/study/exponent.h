@@ -4,7 +4,7 @@
 
 #include <festoon/festoon.h>
 
-#include "lanes/tangents.h"
+#include "lanes/lanes.h"
 
 enum { FST_EXPONENT_WAY = 1024 };
 
@@ -33,5 +33,15 @@ typedef struct fst_exponent {
  * members way and way_state are up to date; a status other than FST_OK ends the work.  FST_NO_MEMORY. */
 fst_status fst_largest_exponents(const fst_tangent_engine *engine, fst_exponent *const *asked, int count,
                                  const fst_progress *progress, fst_error *error);
+
+/* The same under a law with modes, in the lanes of an engine of dry contacts; NULL: out of memory. */
+typedef struct fst_dry_exponents fst_dry_exponents;
+fst_dry_exponents *fst_dry_exponents_new(const fst_lane_engine *engine);
+void fst_dry_exponents_free(fst_dry_exponents *exponents);
+
+/* Follow `count` beads, at most as many as the engine is wide, until some are over: *over, one bit each.  The others
+ * must be asked again: they stay in their lanes.  A new bead begins, and it does so anew if the work was given up. */
+fst_status fst_dry_exponents_follow(fst_dry_exponents *exponents, fst_exponent *const *asked, int count,
+                                    unsigned *over, const fst_progress *progress, fst_error *error);
 
 #endif

@@ -103,27 +103,47 @@ static fst_status watch_exponents(void *user, double fraction, const char *what,
     return fst_worker_ask(user, error);
 }
 
-/* The exponents of runs that are parked, side by side too: the last ones, as many as there are lanes. */
-static fst_status conclude_parked(fst_row_worker *w, fst_error *error)
+/* The exponents of so many parked runs, side by side too; *over: those that are known, one bit each. */
+static fst_status follow_parked(fst_row_worker *w, int count, unsigned *over, fst_error *error)
 {
     fst_exponent *asked[FST_MOST_LANES] = {NULL};
-    const int count = w->parked_count < w->engine->width ? w->parked_count : w->engine->width;
-    fst_lane *last = w->parked + (w->parked_count - count);
     for (int i = 0; i < count; ++i)
-        asked[i] = last[i].exponent;
+        asked[i] = w->parked[i].exponent;
     const fst_progress progress = {w, watch_exponents};
-    const fst_status status = fst_largest_exponents(&w->engine->tangents, asked, count, &progress, error);
-    for (int i = 0; status == FST_OK && i < count; ++i) {
-        fst_lane *at = &last[i];
+    *over = (1u << count) - 1;
+    if (!w->kind.kinds.dry || !w->kind.kinds.modes)
+        return fst_largest_exponents(&w->engine->tangents, asked, count, &progress, error);
+    if (!w->exponents)
+        w->exponents = fst_dry_exponents_new(w->dry);
+    if (!w->exponents)
+        return fst_fail(error, FST_NO_MEMORY, "fst_rows", "out of memory");
+    return fst_dry_exponents_follow(w->exponents, asked, count, over, &progress, error);
+}
+
+/* Conclude the first of the parked runs, as many as there are lanes, or those of them that are over first. */
+static fst_status conclude_parked(fst_row_worker *w, fst_error *error)
+{
+    const int count = w->parked_count < w->engine->width ? w->parked_count : w->engine->width;
+    unsigned over;
+    const fst_status status = follow_parked(w, count, &over, error);
+    int left = 0;
+    for (int i = 0; status == FST_OK && i < w->parked_count; ++i) {
+        fst_lane *at = &w->parked[i];
         fst_run_result result;
         fst_error own = {FST_OK, "", ""};
         int needs_exponent;
+        if (!(over >> i & 1u)) {
+            if (left < i)
+                fst_worker_move_run(&w->parked[left], at);
+            left += 1;
+            continue;
+        }
         fst_result_clear(&result);
         const fst_status concluded = fst_conclude(at->run, at->exponent, &result, &needs_exponent, &own);
         fst_worker_free_run(at);
         hand_over(w, &at->job, concluded, &result, &own);
     }
-    w->parked_count -= status == FST_OK ? count : 0;
+    w->parked_count = status == FST_OK ? left : w->parked_count;
     return status;
 }
 
@@ -351,6 +371,7 @@ static void free_worker(fst_row_worker *w)
         fst_worker_free_run(&w->unwatched[i]);
     for (int i = 0; i < w->parked_count; ++i)
         fst_worker_free_run(&w->parked[i]);
+    fst_dry_exponents_free(w->exponents);
     free(w->run_up.memory);
     free(w->observed.memory);
     free(w->pending_steps);

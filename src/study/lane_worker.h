@@ -60,6 +60,7 @@ typedef struct fst_row_worker {
     /* Finished runs waiting for a Lyapunov exponent: less than a batch, and those that end in one step. */
     fst_lane parked[2 * FST_MOST_LANES];
     int parked_count;
+    fst_dry_exponents *exponents; /* of dry contacts, some of which go on while other runs are made */
     /* Jobs to come: at most one for each run that was begun; and those whose models do not fit the batches. */
     fst_row_job waiting[8 * FST_MOST_LANES], deferred[FST_MOST_DEFERRED];
     int waiting_count, deferred_count;
