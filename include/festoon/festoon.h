@@ -46,7 +46,7 @@ extern "C" {
  * and none, the second that of dry friction (coulomb, rolling).  A sweep that was begun by another version is
  * not continued. */
 #define FST_RESULTS_VERSION 14
-#define FST_DRY_RESULTS_VERSION 18
+#define FST_DRY_RESULTS_VERSION 19
 
 /* "0.1.0": the version of the library that is running. */
 FST_API const char *fst_version(void);

@@ -13,7 +13,9 @@
  * where a difference only means to be ahead on the same orbit, and along |n|, which does not change.  At first
  * the vector turns towards the direction that grows fastest; the growth counts from then on.
  *
- * Under dry friction the vector follows the flow, step by step, through its changes of mode.
+ * Under dry friction the vector follows the flow, step by step, through its changes of mode.  In lanes an engine
+ * carries the vectors of all lanes along their steps; where a step ends in another mode, or a piece does, the lane's
+ * own flow and vector go on from there, as they do alone.
  *
  * As many beads as the engine is wide are followed side by side, each with its own steps.  A bead with its
  * vector can be put down between two tries (keep_way()) and taken up again, so that an interrupted sweep loses

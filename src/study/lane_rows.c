@@ -38,7 +38,7 @@
  * A batch shares the integers of its models: number of lines, material, dynamics.  A job that differs is
  * deferred until nothing is at work; the next batch then takes its kind.  Some motions need their largest
  * exponent to be recognised (conclude.h).  Their runs are parked until there are as many as lanes, and followed side
- * by side too.
+ * by side too; with dry friction until the first is done, whose lane the next one to be parked takes.
  *
  * Runs with dry friction have an engine of their own, which takes the place of the usual one while nothing is
  * at work, and modes that end in a step (lane_contact.c).  Those with a disc of contact or with flight are done
