@@ -189,6 +189,21 @@ class Sweeps(Case):
                 elif key.startswith("mean") or key == "sticking":
                     self.assertAlmostEqual(row[key], run[key], delta=1e-7, msg=key)
 
+    def test_exponents_are_those_of_runs(self):
+        """Of more runs than lanes, which slip, stick, creep and let go: to the bit, or nearly so in the fast form."""
+        words = ("sweep", *DRY, "--set", "run.periods=16", "--set", "run.discard=4", "--set", "run.rtol=1e-5",
+                 "--over", "friction.mu=0.1,0.25", "--over", "friction.mu_static=0.25,0.35", "--over", "drive.frequency=5Hz:24Hz:10")
+        rows = {}
+        for name, arithmetic in (("runs", ("--portable", "--lanes", "1")), ("lanes", ("--portable",)), ("fast", ())):
+            self.good(*words, *arithmetic, "-o", self.path(f"{name}.db"))
+            rows[name] = json.loads(self.good("export", self.path(f"{name}.db"), "--json"))
+        self.assertEqual(rows["lanes"], rows["runs"])
+        known = [both for both in zip(rows["runs"], rows["fast"]) if all(row["largest_exponent"] is not None for row in both)]
+        self.assertGreater(len(known), 16)
+        for run, fast in known:
+            error = run["largest_exponent_error"]
+            self.assertAlmostEqual(run["largest_exponent"], fast["largest_exponent"], delta=2 * error, msg=run["point"])
+
 
 if __name__ == "__main__":
     unittest.main()
