@@ -1,6 +1,6 @@
 """Dry friction through the program: what a run tells, trajectories, pictures, sweeps and bad input.
 
-tests: cli/run_report.c io/columns.c"""
+tests: cli/run_report.c io/columns.c study/lane_contact.c study/exponent.c"""
 import csv
 import json
 import math

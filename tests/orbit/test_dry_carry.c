@@ -1,6 +1,6 @@
 /* Tangents carried along motions with dry friction: against central differences of the flow, over slips, rests
  * and what lies between.
- * tests: orbit/dry_carry.c ode/neighbours.c ode/two_neighbours.c */
+ * tests: orbit/dry_carry.c ode/neighbours.c ode/two_neighbours.c ode/carried.inl */
 #include "branches.h"
 
 #include <stdlib.h>
