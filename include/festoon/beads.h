@@ -87,8 +87,10 @@ typedef struct fst_bead_result {
     double mean_r, mean_alpha_dot; /* NAN: the bead is gone; the rate also of one that ends on the axis */
     double mean_r_error, mean_alpha_dot_error; /* limits of their errors, by how the bead swings */
     double mean_load_weights; /* load on the plate over the bead's weight; NAN without gravity or plate */
-    double mean_height;       /* over the magnet's reference plane, without a plate; else NAN */
-    double ejected_at;        /* 1/gamma; NAN: it was not */
+    double
+        mean_height; /* of the centre over the plate or the bowl's lowest point; without a plate over the magnet's
+                           reference plane; NAN: the bead is gone */
+    double ejected_at; /* 1/gamma; NAN: it was not */
     double mean_velocity,
         mean_velocity_error; /* along a wave; the limit of its error; NAN: no wave, or the bead is gone */
     double final_state[FST_BEAD_NUMBERS];
@@ -266,7 +268,7 @@ FST_API void fst_beads_branch_free(fst_beads_branch *branch);
  * the plate; or in fields that stand still or travel, on a tilted plate, or under a magnet that turns unsteadily. */
 typedef struct fst_world_result {
     fst_run_result run; /* numbers that a world does not have are NAN */
-    double mean_height; /* over the magnet's reference plane, without a plate; else NAN */
+    double mean_height; /* as of an fst_bead_result */
     double mean_medium_power;
     double mean_velocity, mean_velocity_error; /* along a wave, as of an fst_bead_result */
     int frame;         /* fst_frame: of the computation and of final_state, turning or laboratory */

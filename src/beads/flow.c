@@ -49,7 +49,8 @@ void beads_derivatives(const beads_world *world, const beads_modes *modes, const
         const double inertia = world->body[i].inertia;
         double *rate = dy + FST_BEAD_NUMBERS * i, accelerated[3], spun[3], turn[3];
         integral[BEADS_R + i] = sqrt(bead[0] * bead[0] + bead[1] * bead[1]);
-        integral[BEADS_LOAD + i] = isnan(world->plate) ? bead[2] : beads_load(modes, look, i);
+        integral[BEADS_LOAD + i] = isnan(world->plate) ? 0.0 : beads_load(modes, look, i);
+        integral[BEADS_HEIGHT + i] = bead[2];
         if (modes->gone[i]) { /* stays where it is */
             memset(rate, 0, FST_BEAD_NUMBERS * sizeof *rate);
             continue;

@@ -56,15 +56,15 @@ static beads_seen see(const run *r)
 {
     if (r->method == FST_BEADS_STEPPING) {
         const beads_steps *s = &r->steps;
-        return (beads_seen){
-            &r->world, s->y, s->gone, s->ejected, s->turned, s->r, s->load, s->work, s->h * (double)s->steps,
-            s->impacts};
+        return (beads_seen){&r->world, s->y,    s->gone,   s->ejected, s->turned,
+                            s->r,      s->load, s->height, s->work,    s->h * (double)s->steps,
+                            s->impacts};
     }
     const beads_flow *flow = &r->flow;
     const double *integral = flow->step.y + FST_BEAD_NUMBERS * r->world.count;
     return (beads_seen){&r->world,    flow->step.y,       flow->modes.gone,      flow->ejected,
-                        flow->turned, integral + BEADS_R, integral + BEADS_LOAD, integral,
-                        flow->t.high, flow->impacts};
+                        flow->turned, integral + BEADS_R, integral + BEADS_LOAD, integral + BEADS_HEIGHT,
+                        integral,     flow->t.high,       flow->impacts};
 }
 
 /* ------------------------------------------------------------------ samples */

@@ -38,7 +38,7 @@ static const double SWINGS = 2.0;
 
 /* Numbers of a group that are followed, of a bead in a moment, and of its swings. */
 enum { TURNED, CENTRE_R, AXIS, OF_GROUP };
-enum { R, LOAD, ANGLE, X, OF_BEAD };
+enum { R, LOAD, HEIGHT, ANGLE, X, OF_BEAD };
 enum { LEAST_R, GREATEST_R, LEAST_ANGLE, GREATEST_ANGLE, OF_SWING };
 
 const char *fst_bead_event_name(fst_bead_event_kind kind)
@@ -138,6 +138,7 @@ void beads_keep(const beads_seen *seen, const beads_groups *groups, beads_moment
     memcpy(moment->work, seen->work, sizeof moment->work);
     memcpy(moment->numbers + n * R, seen->r, n * sizeof *seen->r);
     memcpy(moment->numbers + n * LOAD, seen->load, n * sizeof *seen->load);
+    memcpy(moment->numbers + n * HEIGHT, seen->height, n * sizeof *seen->height);
     memcpy(moment->numbers + n * ANGLE, seen->turned, n * sizeof *seen->turned);
     for (size_t i = 0; i < n; ++i)
         moment->numbers[n * X + i] = seen->y[FST_BEAD_NUMBERS * i];
@@ -258,7 +259,8 @@ static void tell_beads(const beads_seen *seen, const beads_moment at[3], fst_bea
             fabs(circled(seen->world, n, &at[1], to, i) - circled(seen->world, n, from, &at[1], i));
         const double load = mean_rate(n, from, to, LOAD, i);
         bead->mean_load_weights = over_plate ? load / (seen->world->body[i].mass * seen->world->gravity) : NAN;
-        bead->mean_height = over_plate ? NAN : load;
+        bead->mean_height =
+            mean_rate(n, from, to, HEIGHT, i) + (over_plate ? seen->world->body[i].radius : 0.0);
         bead->ejected_at = seen->ejected[i];
         bead->regime = regime_of(seen, i, bead->mean_alpha_dot, apart);
         bead->mean_velocity = is_in_wave(seen->world) ? mean_rate(n, from, to, X, i) : NAN;

@@ -9,9 +9,10 @@ typedef struct beads_seen {
     const beads_world *world;
     const double *y; /* twelve numbers a bead */
     const int *gone;
-    const double *ejected;         /* when, or NAN */
-    const double *turned;          /* angle about the axis, in the turning frame, unwrapped */
-    const double *r, *load, *work; /* integrals over time: of each bead; BEADS_DRIVE, BEADS_PLATE, BEADS_PAIR */
+    const double *ejected; /* when, or NAN */
+    const double *turned;  /* angle about the axis, in the turning frame, unwrapped */
+    const double *r, *load, *height,
+        *work; /* integrals over time: of each bead; BEADS_DRIVE, BEADS_PLATE, BEADS_PAIR */
     double time, impacts;
 } beads_seen;
 
@@ -26,7 +27,7 @@ typedef struct beads_groups {
 /* The same numbers at a moment, kept. */
 typedef struct beads_moment {
     double time, impacts, work[BEADS_R];
-    /* Of each bead: r, load, turned, x; behind these those of the groups; behind these, of the middle, the swings after
+    /* Of each bead: r, load, height, turned, x; behind these those of the groups; behind these, of the middle, the swings after
      * it. */
     double *numbers;
 } beads_moment;

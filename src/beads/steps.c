@@ -358,6 +358,7 @@ fst_status beads_step(beads_steps *s, fst_error *error)
     for (int i = 0; i < s->world.count; ++i) {
         const double *bead = s->y + FST_BEAD_NUMBERS * i;
         s->r[i] += s->h * sqrt(bead[0] * bead[0] + bead[1] * bead[1]);
+        s->height[i] += s->h * bead[2];
     }
     const fst_status status = kick(s, error);
     if (status != FST_OK)
@@ -387,9 +388,10 @@ static fst_status begin_touches(beads_steps *s, fst_error *error)
 static int make_room(beads_steps *s, int count)
 {
     const size_t n = (size_t)count;
-    const size_t sizes[] = {FST_BEAD_NUMBERS * n,   n,    n, n, n, BEADS_SPEEDS * (n + 1),
+    const size_t sizes[] = {FST_BEAD_NUMBERS * n,   n,    n, n, n, n, BEADS_SPEEDS * (n + 1),
                             BEADS_SPEEDS * (n + 1), 2 * n};
-    double **arrays[] = {&s->y, &s->ejected, &s->turned, &s->r, &s->load, &s->speeds, &s->after, &s->started};
+    double **arrays[] = {&s->y,      &s->ejected, &s->turned, &s->r,      &s->load,
+                         &s->height, &s->speeds,  &s->after,  &s->started};
     enum { ARRAYS = sizeof sizes / sizeof *sizes };
     size_t sum = (BEADS_DIPOLE_IN + BEADS_DIPOLE_OUT) * n;
     for (int a = 0; a < ARRAYS; ++a)

@@ -14,7 +14,7 @@ typedef struct beads_steps {
     int *gone;                     /* it has left the plate and is no longer computed */
     double *ejected;               /* when, or NAN */
     double *turned;                /* angle of each bead about the axis, in the turning frame, unwrapped */
-    double *r, *load;              /* integrals over time, of each bead */
+    double *r, *load, *height;     /* integrals over time, of each bead */
     double work[BEADS_R], impacts; /* as those of a beads_flow */
     double carried;
     beads_touch *touches; /* of the last step, plate first, each kind by its first and then its second bead */

@@ -24,10 +24,14 @@ enum { BEADS_PAIRS = FST_BEADS_MOST * (FST_BEADS_MOST - 1) / 2, BEADS_CONTACTS =
 enum { BEADS_V = 3, BEADS_N = 6, BEADS_W = 9 };
 
 /* Integrals over time: the work of the drive, the losses at the plate, between beads and to the medium; then r
- * of each bead, and the load on the plate under each, or without a plate its height; the time since the start of the
- * step. */
+ * of each bead, the load on the plate under each, and its height over that of a bead at rest on the plate, or without a
+ * plate over the reference plane; the time since the start of the step. */
 enum { BEADS_DRIVE, BEADS_PLATE, BEADS_PAIR, BEADS_MEDIUM, BEADS_R, BEADS_LOAD = BEADS_R + FST_BEADS_MOST };
-enum { BEADS_TIME = BEADS_LOAD + FST_BEADS_MOST, BEADS_INTEGRALS };
+enum {
+    BEADS_HEIGHT = BEADS_LOAD + FST_BEADS_MOST,
+    BEADS_TIME = BEADS_HEIGHT + FST_BEADS_MOST,
+    BEADS_INTEGRALS
+};
 enum { BEADS_NUMBERS = FST_BEADS_MOST * FST_BEAD_NUMBERS, BEADS_DIM = BEADS_NUMBERS + BEADS_INTEGRALS };
 
 typedef struct beads_body {

@@ -102,6 +102,7 @@ static void test_conical_pendulum(void **unused)
     CHECK_CLOSE(flow->step.y[0], state[0] * cos(100 * w), 1e-11);
     CHECK_CLOSE(flow->step.y[1], state[0] * sin(100 * w), 1e-11);
     CHECK_CLOSE(flow->step.y[2], state[2], 1e-12);
+    CHECK_CLOSE(flow->step.y[FST_BEAD_NUMBERS + BEADS_HEIGHT], 100 * state[2], 1e-10);
     CHECK_CLOSE(flow->start.held[0], 0.02 / cos(theta), 1e-12);
     free(flow);
 }

@@ -126,12 +126,14 @@ class Worlds(Case):
         loads = {}
         for frame in ("turning", "laboratory"):
             path = self.path(frame + ".csv")
-            self.good("run", self.scene("bowl"), "--set", f"world.frame={frame}", "--set", "run.periods=4", "--set",
-                      "run.discard=1", "--csv", path)
+            told = json.loads(self.good("run", self.scene("bowl"), "--set", f"world.frame={frame}", "--set", "run.periods=4",
+                                        "--set", "run.discard=1", "--csv", path, "--json"))
             with open(path, encoding="utf-8") as file:
                 table = [line.strip().split(",") for line in file if not line.startswith("#")]
             self.assertEqual(table[0][-1], "load_0 [l gamma^2]")
             loads[frame] = [float(row[-1]) for row in table[1:]]
+            heights = [float(row[table[0].index("Z_0 [l]")]) for row in table[1:] if float(row[1]) >= 1]  # the window's
+            self.assertAlmostEqual(told["mean_height"], (sum(heights) - (heights[0] + heights[-1]) / 2) / (len(heights) - 1), delta=1e-5)
         self.assertEqual(len(loads["turning"]), 257)
         for one, other in zip(*loads.values()):
             self.assertAlmostEqual(one, other, delta=1e-10)
