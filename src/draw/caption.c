@@ -10,7 +10,8 @@
 #include "base/units.h"
 
 enum {
-    LONGEST = 150, /* characters, which is two lines of a figure */
+    LONGEST = 150, /* characters, which is two lines of a figure, */
+    LAST = 40,     /* and a last key instead of the words that one more differs */
     VALUE = 264    /* bytes of a value: a file's name is one */
 };
 
@@ -29,9 +30,9 @@ static int may_be_told(const fst_param_info *row)
            strcmp(row->key, "world.frame") != 0;
 }
 
-/* Append "key value" behind a comma to a text that began at `begun`; 0: it would be longer than LONGEST there, or than
+/* Append "key value" behind a comma to a text that began at `begun`; 0: it would be longer than `longest` there, or than
  * `size`. */
-static int tell(const fst_params *params, int index, char *text, size_t size, size_t begun)
+static int tell(const fst_params *params, int index, char *text, size_t size, size_t begun, size_t longest)
 {
     const fst_param_info *row = fst_param_at(index);
     char value[VALUE];
@@ -43,7 +44,7 @@ static int tell(const fst_params *params, int index, char *text, size_t size, si
     else if (row->kind != FST_KIND_CHOICE && fst_parse_value(value, row->unit, &number, NULL) == FST_OK)
         (void)fst_value_write(value, sizeof value, number, row->unit);
     const size_t used = strlen(text), length = strlen(row->key) + strlen(value) + 3;
-    if (used - begun + length > LONGEST || used + length + 16 > size)
+    if (used - begun + length > longest || used + length + 16 > size)
         return 0;
     (void)snprintf(text + used, size - used, "%s%s %s", used && text[used - 1] != ' ' ? ", " : "", row->key,
                    value[0] ? value : "not given");
@@ -58,9 +59,10 @@ static int agree(const fst_params *one, const fst_params *other, int index)
     return strcmp(values[0], values[1]) == 0;
 }
 
-static void count_left(char *text, size_t size, int left)
+/* Of the keys for which there was no room: `last` is one of them. */
+static void count_left(const fst_params *params, char *text, size_t size, size_t begun, int left, int last)
 {
-    if (left)
+    if (left > 1 || (left == 1 && !tell(params, last, text, size, begun, LONGEST + LAST)))
         (void)snprintf(text + strlen(text), size - strlen(text), " and %d more", left);
 }
 
@@ -68,15 +70,18 @@ void fst_caption(const fst_params *params, const char *const *shown, int count, 
 {
     const fst_params usual = fst_default_params();
     const size_t begun = strlen(text);
-    int left = 0;
+    int left = 0, last = 0;
     for (int i = 0; i < fst_param_count(); ++i) {
         char value[VALUE];
         const fst_param_info *row = fst_param_at(i);
         if (may_be_told(row) && !is_among(row->key, shown, count) &&
-            fst_params_get(params, i, value, sizeof value) && !agree(params, &usual, i))
-            left += !tell(params, i, text, size, begun);
+            fst_params_get(params, i, value, sizeof value) && !agree(params, &usual, i) &&
+            !tell(params, i, text, size, begun, LONGEST)) {
+            ++left;
+            last = i;
+        }
     }
-    count_left(text, size, left);
+    count_left(params, text, size, begun, left, last);
 }
 
 /* Whether these scenes have one value of a key. */
@@ -92,7 +97,7 @@ void fst_caption_differences(const fst_params *const *scenes, int count, const c
                              int shown_count, char (*names)[FST_CAPTION_SIZE], char *same, size_t size)
 {
     const fst_params usual = fst_default_params();
-    int left[2] = {0, 0};
+    int left[2] = {0, 0}, last[2] = {0, 0};
     same[0] = '\0';
     for (int i = 0; i < count; ++i)
         names[i][0] = '\0';
@@ -100,17 +105,24 @@ void fst_caption_differences(const fst_params *const *scenes, int count, const c
         if (!may_be_told(fst_param_at(k)) || is_among(fst_param_at(k)->key, shown, shown_count))
             continue;
         if (!all_agree(scenes, count, k)) {
+            size_t used[FST_CHARTS_OVER];
             int all = 1;
-            for (int i = 0; i < count; ++i)
-                all &= tell(scenes[i], k, names[i], FST_CAPTION_SIZE, 0);
+            for (int i = 0; i < count; ++i) {
+                used[i] = strlen(names[i]);
+                all &= tell(scenes[i], k, names[i], FST_CAPTION_SIZE, 0, LONGEST);
+            }
+            for (int i = 0; i < count && !all; ++i)
+                names[i][used[i]] = '\0'; /* told of all or of none */
             left[0] += !all;
-        } else if (!agree(scenes[0], &usual, k)) {
-            left[1] += !tell(scenes[0], k, same, size, 0);
+            last[0] = all ? last[0] : k;
+        } else if (!agree(scenes[0], &usual, k) && !tell(scenes[0], k, same, size, 0, LONGEST)) {
+            ++left[1];
+            last[1] = k;
         }
     }
     for (int i = 0; i < count; ++i)
-        count_left(names[i], FST_CAPTION_SIZE, left[0]);
-    count_left(same, size, left[1]);
+        count_left(scenes[i], names[i], FST_CAPTION_SIZE, 0, left[0], last[0]);
+    count_left(scenes[0], same, size, 0, left[1], last[1]);
 }
 
 const char *fst_file_name(const char *path)

@@ -8,7 +8,7 @@
  * the default scene, but for the `count` keys that the figure shows anyway. */
 void fst_caption(const fst_params *params, const char *const *shown, int count, char *text, size_t size);
 
-enum { FST_CAPTION_SIZE = 192 };
+enum { FST_CAPTION_SIZE = 224 };
 
 /* What differs between scenes, for each of them: "friction.law coulomb" beside "friction.law viscous"; "" for all where nothing
  * does.  `same`: what is equal in all and not the default. */

@@ -7,6 +7,9 @@
 #include "base/error.h"
 #include "draw/legend.h"
 
+/* How far apart points at names stand at most, of which there is one at each integer. */
+static const double BESIDE = 0.7;
+
 fst_colour fst_chart_colour(int place)
 {
     static const fst_colour colours[FST_CHARTS_OVER] = {
@@ -84,24 +87,35 @@ static int is_main(const fst_chart_curve *curve)
            curve->style != FST_CURVE_THIN && has_point(curve);
 }
 
-/* Make a curve one of several at the edge: `level` lines higher, because another chart may have signs at the same place, and
- * with the name of its chart where no other curve has it. */
-static int lift_signs(fst_chart *all, fst_chart_curve *curve, int level, const char *name)
+/* How the curves of a chart are taken over. */
+typedef struct taking {
+    fst_colour colour;
+    int at_edge; /* the signs at the edge, or all others */
+    double
+        higher; /* signs, and points at names, stand by so much higher: other charts may have some at the same place */
+    const char **name; /* of the chart, until a curve has it */
+} taking;
+
+static int lift(fst_chart *all, fst_chart_curve *curve, double higher)
 {
     double *y = fst_chart_keep(all, (curve->count + 1) * sizeof *y);
-    char words[384];
     for (size_t i = 0; y && i < curve->count; ++i)
-        y[i] = curve->y[i] + 0.04 * level;
+        y[i] = curve->y[i] + higher;
     curve->y = y;
-    (void)snprintf(words, sizeof words, "%s%s%s", name ? name : "", name ? ": " : "", curve->title);
-    curve->title = fst_chart_text(all, words);
-    return y && curve->title;
+    return y != NULL;
 }
 
-/* Take the curves of one panel over, in one colour: those at the edge on their level, or (-1) the others.  `name` is that of
- * its chart, until a curve has it. */
+/* Signs at the edge have the name of their chart where no other curve has it. */
+static int name_signs(fst_chart *all, fst_chart_curve *curve, const char *name)
+{
+    char words[384];
+    (void)snprintf(words, sizeof words, "%s%s%s", name ? name : "", name ? ": " : "", curve->title);
+    curve->title = fst_chart_text(all, words);
+    return curve->title != NULL;
+}
+
 static int take_curves(fst_chart *all, fst_chart_panel *panels, int count, fst_chart_panel *panel,
-                       const fst_chart_panel *one, fst_colour colour, int level, const char **name)
+                       const fst_chart_panel *one, const taking *how)
 {
     const size_t sum = (size_t)(panel->curve_count + one->curve_count);
     fst_chart_curve *curves = fst_chart_keep(all, (sum + 1) * sizeof *curves);
@@ -111,14 +125,16 @@ static int take_curves(fst_chart *all, fst_chart_panel *panels, int count, fst_c
     panel->curves = curves;
     for (int c = 0; c < one->curve_count; ++c) {
         fst_chart_curve curve = one->curves[c];
-        curve.colour = colour;
-        if (is_at_edge(&curve) != (level >= 0))
+        curve.colour = how->colour;
+        if (is_at_edge(&curve) != how->at_edge)
             continue;
-        if (level >= 0 && !lift_signs(all, &curve, level, *name))
+        if ((how->at_edge || one->tics) && !lift(all, &curve, how->higher))
+            return 0;
+        if (how->at_edge && !name_signs(all, &curve, *how->name))
             return 0;
         if (is_main(&curve)) {
-            curve.title = *name;
-            *name = NULL;
+            curve.title = *how->name;
+            *how->name = NULL;
         } else if (curve.title && is_named(panels, count, curve.title)) {
             curve.title = NULL;
         }
@@ -128,12 +144,12 @@ static int take_curves(fst_chart *all, fst_chart_panel *panels, int count, fst_c
 }
 
 static int take_chart(fst_chart *all, fst_chart_panel *panels, int *count, const fst_chart *one,
-                      fst_colour colour, int level, const char **name)
+                      const taking *how)
 {
     int good = 1;
     for (int p = 0; p < one->panel_count && good; ++p) {
         fst_chart_panel *panel = panel_for(panels, count, &one->panels[p]);
-        good = take_curves(all, panels, *count, panel, &one->panels[p], colour, level, name);
+        good = take_curves(all, panels, *count, panel, &one->panels[p], how);
     }
     return good;
 }
@@ -148,7 +164,8 @@ static int take_signs(fst_chart *all, fst_chart_panel *panels, int *panel_count,
         for (int p = 0; p < charts[i]->panel_count; ++p)
             for (int c = 0; c < charts[i]->panels[p].curve_count; ++c)
                 has_some |= is_at_edge(&charts[i]->panels[p].curves[c]);
-        good = take_chart(all, panels, panel_count, charts[i], fst_chart_colour(i), level, &names[i]);
+        const taking how = {fst_chart_colour(i), 1, 0.04 * level, &names[i]};
+        good = take_chart(all, panels, panel_count, charts[i], &how);
         level += has_some;
     }
     return good;
@@ -190,9 +207,10 @@ fst_status fst_charts_over(fst_chart *const *charts, const char *const *names, i
         if (made->scene && !(charts[i]->scene && strcmp(made->scene, charts[i]->scene) == 0))
             made->scene = NULL; /* each file has its own */
         status = lay_abscissa(made, charts[0], charts[i], error);
+        const taking how = {fst_chart_colour(i), 0, BESIDE * ((i + 0.5) / count - 0.5), &own[i]};
         if (status == FST_OK)
-            good = (own[i] = own_name(made, names[i])) &&
-                   take_chart(made, panels, &panel_count, charts[i], fst_chart_colour(i), -1, &own[i]);
+            good =
+                (own[i] = own_name(made, names[i])) && take_chart(made, panels, &panel_count, charts[i], &how);
     }
     if (good && status == FST_OK)
         good = take_signs(made, panels, &panel_count, charts, own, count);

@@ -12,9 +12,8 @@
 
 enum {
     CIRCLE = 181,
-    CURVES = FST_SPECIAL_COUNT + 4,
-    PARTS = 8,    /* the most pieces of the smooth curve between two points of a branch */
-    ENOUGH = 1600 /* about as many points as the smooth curves need */
+    SIDES = 2, /* above the magnet and below it */
+    CURVES = FST_SPECIAL_COUNT + 2 * SIDES + 1
 };
 
 static const fst_observable_info OBSERVABLES[] = {
@@ -89,20 +88,6 @@ static int goes_on_to(const fst_observable_info *what, const fst_branch_point *f
 
 typedef fst_columns columns;
 
-static int make_columns(fst_chart *chart, columns *c, size_t capacity)
-{
-    c->x = fst_chart_keep(chart, (capacity + 1) * sizeof *c->x);
-    c->y = fst_chart_keep(chart, (capacity + 1) * sizeof *c->y);
-    c->count = 0;
-    return c->x && c->y;
-}
-
-static void put(columns *c, double x, double y)
-{
-    c->x[c->count] = x;
-    c->y[c->count++] = y;
-}
-
 /* By which a special point is known for that between two points. */
 static double place_of(const fst_branch *b, const fst_branch_point *p)
 {
@@ -126,9 +111,9 @@ static void put_border(columns *c, const fst_branch *b, const fst_branch_point *
             best = s;
     }
     if (best && goes_on_to(what, p, &best->at) && goes_on_to(what, q, &best->at))
-        put(c, best->value, value_of(&best->at, what));
+        fst_columns_put(c, best->value, value_of(&best->at, what));
     else if (goes_on_to(what, p, q))
-        put(c, x, 0.5 * (value_of(p, what) + value_of(q, what)));
+        fst_columns_put(c, x, 0.5 * (value_of(p, what) + value_of(q, what)));
 }
 
 /* Whether a branch would be drawn exactly over its image under S2; only <n_z> and Phi tell the two apart. */
@@ -156,10 +141,10 @@ static void put_gap(columns *c, const fst_branch *b, const fst_branch_point *p, 
     }
     const int reach = at && strcmp(what->name, "mean_alpha_dot") == 0 && p->turns != q->turns;
     if (reach)
-        put(c, at->value, at->omega + p->turns * FST_TWO_PI / at->period);
-    put(c, NAN, NAN);
+        fst_columns_put(c, at->value, at->omega + p->turns * FST_TWO_PI / at->period);
+    fst_columns_put(c, NAN, NAN);
     if (reach)
-        put(c, at->value, at->omega + q->turns * FST_TWO_PI / at->period);
+        fst_columns_put(c, at->value, at->omega + q->turns * FST_TWO_PI / at->period);
 }
 
 /* Where the branch is born on another one, if it is known; only means go over to those of the orbits there: a
@@ -169,17 +154,23 @@ static void put_birth(columns *c, const fst_branch *b, const fst_branch_point *f
 {
     for (size_t i = 0; i < b->special_count && strncmp(what->name, "mean_", 5) == 0; ++i)
         if (b->specials[i].born == first->branch && goes_on_to(what, &b->specials[i].at, first))
-            put(c, b->specials[i].value, value_of(&b->specials[i].at, what));
+            fst_columns_put(c, b->specials[i].value, value_of(&b->specials[i].at, what));
 }
 
-/* Write the pieces of one stability, with a gap between them. */
-static void put_pieces(columns *c, const fst_branch *b, const fst_observable_info *what, int stable)
+/* Whether a bead floats above the magnet; the weight pulls it down. */
+static int is_above(const fst_branch *b, const fst_branch_point *p)
+{
+    return (b->scene->plate_gravity < 0 ? -p->levitation.state[2] : p->levitation.state[2]) > 0;
+}
+
+/* Write the pieces of one stability, with a gap between them; `above`: of one side of the magnet, -1: of both. */
+static void put_pieces(columns *c, const fst_branch *b, const fst_observable_info *what, int stable, int above)
 {
     for (size_t i = 0; i < b->point_count; ++i) {
         const fst_branch_point *p = &b->points[i];
         const int joined = i > 0 && p[-1].branch == p->branch;
         const int goes_on = i + 1 < b->point_count && p[1].branch == p->branch;
-        if (p->stable != stable || is_hidden(b, what, p->branch))
+        if (p->stable != stable || is_hidden(b, what, p->branch) || (above >= 0 && is_above(b, p) != above))
             continue;
         if (!joined)
             put_birth(c, b, p, what);
@@ -187,11 +178,11 @@ static void put_pieces(columns *c, const fst_branch *b, const fst_observable_inf
             put_border(c, b, p - 1, p, what);
         if (joined && p[-1].stable == stable && !goes_on_to(what, p - 1, p))
             put_gap(c, b, p - 1, p, what);
-        put(c, p->value, value_of(p, what));
+        fst_columns_put(c, p->value, value_of(p, what));
         if (goes_on && p[1].stable != stable)
             put_border(c, b, p, p + 1, what);
         if (!goes_on || p[1].stable != stable)
-            put(c, NAN, NAN);
+            fst_columns_put(c, NAN, NAN);
     }
 }
 
@@ -208,84 +199,11 @@ static void put_multipliers(columns *c, const fst_branch *b, int stable)
         const fst_levitation *l = &p->levitation;
         for (int k = 0; k < FST_LEVITATION_DIRECTIONS && p->stable == stable; ++k)
             if (b->kind == FST_BRANCH_LEVITATING)
-                put(c, l->eigenvalue_re[k], l->eigenvalue_im[k]);
+                fst_columns_put(c, l->eigenvalue_re[k], l->eigenvalue_im[k]);
             else if (k < p->multipliers &&
                      (b->kind != FST_BRANCH_ALL || p->multipliers == FST_MULTIPLIER_COUNT))
-                put(c, p->multiplier_re[k], p->multiplier_im[k]);
+                fst_columns_put(c, p->multiplier_re[k], p->multiplier_im[k]);
     }
-}
-
-/* Keep points that are given twice once; returns how many are left of the piece. */
-static size_t without_twins(double *x, double *y, size_t count, double wide, double tall)
-{
-    size_t kept = 0;
-    for (size_t i = 0; i < count; ++i)
-        if (kept == 0 || fabs(x[i] - x[kept - 1]) > 1e-9 * wide || fabs(y[i] - y[kept - 1]) > 1e-9 * tall) {
-            x[kept] = x[i];
-            y[kept++] = y[i];
-        }
-    return kept;
-}
-
-/* Whether an ordinate grows by orders of magnitude: cubics would swing, and go through its logarithm. */
-static int grows_much(const double *y, size_t count)
-{
-    double low = INFINITY, high = -INFINITY;
-    for (size_t i = 0; i < count; ++i) {
-        low = fmin(low, y[i]);
-        high = fmax(high, y[i]);
-    }
-    return low > 0.0 && high > 100.0 * low;
-}
-
-/* Put a smooth curve through a piece. */
-static void put_smooth(columns *to, double *x, double *y, size_t count, int parts, double wide, double tall)
-{
-    const int by_logarithm = grows_much(y, count);
-    if (by_logarithm) {
-        double low = INFINITY, high = -INFINITY;
-        for (size_t i = 0; i < count; ++i) {
-            y[i] = log(y[i]);
-            low = fmin(low, y[i]);
-            high = fmax(high, y[i]);
-        }
-        tall = high - low;
-    }
-    count = without_twins(x, y, count, wide, tall);
-    const size_t made = fst_smooth(x, y, count, parts, wide, tall, to->x + to->count, to->y + to->count);
-    for (size_t i = 0; by_logarithm && i < made; ++i)
-        to->y[to->count + i] = exp(to->y[to->count + i]);
-    to->count += made;
-}
-
-/* Put a smooth curve through each piece of the columns, whose gaps are NANs. */
-static int smoothen(fst_chart *chart, columns *c)
-{
-    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
-    columns smooth = {NULL, NULL, 0};
-    if (c->count < 3)
-        return 1;
-    const size_t wanted = 1 + ENOUGH / c->count;
-    const int parts = wanted < PARTS ? (int)wanted : PARTS;
-    if (!make_columns(chart, &smooth, PARTS * c->count))
-        return 0;
-    for (size_t i = 0; i < c->count; ++i) {
-        low[0] = fmin(low[0], c->x[i]);
-        high[0] = fmax(high[0], c->x[i]);
-        low[1] = fmin(low[1], c->y[i]);
-        high[1] = fmax(high[1], c->y[i]);
-    }
-    for (size_t i = 0; i < c->count;) {
-        size_t last = i;
-        while (last < c->count && isfinite(c->x[last]) && isfinite(c->y[last]))
-            ++last;
-        if (last > i)
-            put_smooth(&smooth, c->x + i, c->y + i, last - i, parts, high[0] - low[0], high[1] - low[1]);
-        put(&smooth, NAN, NAN);
-        i = last + 1;
-    }
-    *c = smooth;
-    return 1;
 }
 
 /* The most numbers that a curve of a branch is made of, before it is smooth. */
@@ -298,10 +216,10 @@ int fst_branch_curve(fst_chart *chart, const fst_branch *b, const char *observab
                      fst_columns *curve)
 {
     const fst_observable_info *what = find_observable(observable);
-    if (!make_columns(chart, curve, room_for(b)))
+    if (!fst_columns_make(chart, curve, room_for(b)))
         return 0;
-    put_pieces(curve, b, what, stable);
-    return smoothen(chart, curve);
+    put_pieces(curve, b, what, stable, -1);
+    return fst_columns_smoothen(chart, curve);
 }
 
 static void show_in_units(columns *c, const shown *s)
@@ -347,23 +265,32 @@ fst_chart_curve fst_special_curve(fst_special_type type)
 static int add_diagram(fst_chart *chart, const fst_branch *b, const shown *s, columns *c,
                        fst_chart_curve *curves)
 {
-    const int over_two = b->second_key[0] != 0;
+    static const char *const words[][2] = {{"stable, below the magnet", "unstable, below"},
+                                           {"stable, above the magnet", "unstable, above"},
+                                           {"stable", "unstable"},
+                                           {"of a stable state", "of an unstable state"}};
+    const int over_two = b->second_key[0] != 0,
+              sided = b->kind == FST_BRANCH_LEVITATING && b->scene && !over_two;
     int count = 0;
-    for (int k = 0; k < 2; ++k) {
-        put_pieces(&c[k], b, s->what, 1 - k);
-        if (!smoothen(chart, &c[k]))
+    for (int k = 0; k < (sided ? 2 * SIDES : 2); ++k) {
+        const int unstable = k % 2, above = k / 2;
+        put_pieces(&c[k], b, s->what, !unstable, sided ? above : -1);
+        if (sided && c[k].count == 0)
+            continue;
+        if (!fst_columns_smoothen(chart, &c[k]))
             return -1;
         show_in_units(&c[k], s);
+        style_curve(&curves[count++], &c[k], words[sided ? above : 2 + over_two][unstable],
+                    above                ? FST_COLOUR_VERMILION
+                    : unstable && !sided ? FST_COLOUR_GREY
+                                         : FST_COLOUR_BLUE,
+                    unstable ? FST_CURVE_DASHED : FST_CURVE_LINE);
     }
-    style_curve(&curves[count++], &c[0], over_two ? "of a stable state" : "stable", FST_COLOUR_BLUE,
-                FST_CURVE_LINE);
-    style_curve(&curves[count++], &c[1], over_two ? "of an unstable state" : "unstable", FST_COLOUR_GREY,
-                FST_CURVE_DASHED);
     for (int type = 0; type < FST_SPECIAL_COUNT; ++type) {
-        columns *special = &c[2 + type];
+        columns *special = &c[2 * SIDES + type];
         for (size_t i = 0; i < b->special_count; ++i)
             if ((int)b->specials[i].type == type)
-                put(special, b->specials[i].value, value_of(&b->specials[i].at, s->what));
+                fst_columns_put(special, b->specials[i].value, value_of(&b->specials[i].at, s->what));
         if (special->count == 0)
             continue;
         show_in_units(special, s);
@@ -381,7 +308,7 @@ static int add_multipliers(const fst_branch *b, const shown *s, columns *c, fst_
 {
     int count = 0;
     for (int i = 0; i < CIRCLE && !has_eigenvalues(b); ++i)
-        put(&c[2], cos(FST_TWO_PI * i / (CIRCLE - 1)), sin(FST_TWO_PI * i / (CIRCLE - 1)));
+        fst_columns_put(&c[2], cos(FST_TWO_PI * i / (CIRCLE - 1)), sin(FST_TWO_PI * i / (CIRCLE - 1)));
     put_multipliers(&c[0], b, 1);
     put_multipliers(&c[1], b, 0);
     show_in_units(&c[0], s);
@@ -543,12 +470,12 @@ static fst_status fill(fst_chart *chart, const fst_branch *b, const shown *s, co
     fst_chart_curve *curves = fst_chart_keep(chart, CURVES * sizeof *curves);
     const size_t most = room_for(b) + FST_LEVITATION_DIRECTIONS * b->point_count + CIRCLE;
     for (int i = 0; i < CURVES; ++i)
-        if (!curves || !make_columns(chart, &c[i], most + dot_count))
+        if (!curves || !fst_columns_make(chart, &c[i], most + dot_count))
             return FST_NO_MEMORY;
     int count = s->what ? add_diagram(chart, b, s, c, curves) : add_multipliers(b, s, c, curves);
     columns *simulated = &c[CURVES - 1];
     for (size_t i = 0; i < dot_count && s->what; ++i)
-        put(simulated, dots[2 * i], dots[2 * i + 1]);
+        fst_columns_put(simulated, dots[2 * i], dots[2 * i + 1]);
     if (count >= 0 && simulated->count > 0) {
         show_in_units(simulated, s);
         style_curve(&curves[count++], simulated, "simulated", FST_COLOUR_BLACK, FST_CURVE_OPEN_POINTS);

@@ -2,13 +2,7 @@
 #ifndef FST_DRAW_FIGURE_BRANCH_H
 #define FST_DRAW_FIGURE_BRANCH_H
 
-#include "draw/chart.h"
-
-/* A curve as two columns of numbers; both are NAN in its gaps. */
-typedef struct fst_columns {
-    double *x, *y;
-    size_t count;
-} fst_columns;
+#include "draw/smooth.h"
 
 /* An observable over the parameter, in the units of the file, as a smooth curve through the points of one stability
  * that reaches to the special points at its ends.  The chart owns it; returns 0 where there is no memory. */

@@ -216,8 +216,10 @@ static fst_status choose_quantities(const fst_grid *grid, const fst_sweep_figure
         return fst_fail(error, FST_BAD_INPUT, "fst_sweep_figure.keys", "a map shows one key, not %d", s->count);
     if (s->count == 0)
         s->count = choose_keys(grid, s->is_map, keys);
-    for (int i = 0; i < s->count; ++i)
+    for (int i = 0; i < s->count; ++i) {
         s->quantities[i] = fst_sweep_quantity_of(grid, keys[i], units);
+        s->quantities[i].asked = options->keys[0] != NULL;
+    }
     return FST_OK;
 }
 

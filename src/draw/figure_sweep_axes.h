@@ -62,6 +62,7 @@ typedef struct fst_sweep_quantity {
     const char *key, *unit;
     fst_shown_units units; /* FST_SHOWN_SCALED where the unit has no counterpart in others */
     char label[128];
+    int asked; /* by the caller, rather than shown as usual */
 } fst_sweep_quantity;
 fst_sweep_quantity fst_sweep_quantity_of(const fst_grid *grid, const char *key, fst_shown_units units);
 

@@ -175,7 +175,7 @@ static int add_panel(drawing *d, const fst_sweep_quantity *quantity, const doubl
 }
 
 /* One panel for each key.  The regime, where it is asked for beside other keys, has no panel: it colours the
- * points of all panels, unless they are plain.  (A colour that means a regime in one panel must not mean anything else in
+ * points of all panels; where these are plain it has one if it was asked for.  (A colour that means a regime in one panel must not mean anything else in
  * the next.)  0: no memory. */
 static int add_panels(drawing *d, const fst_sweep_quantity *quantities, int count, int plain)
 {
@@ -185,7 +185,7 @@ static int add_panels(drawing *d, const fst_sweep_quantity *quantities, int coun
         if (strcmp(quantities[k].key, "regime") == 0 && !(regime = values_of(d, k)))
             return 0;
     for (int k = 0; k < count; ++k) {
-        if (strcmp(quantities[k].key, "regime") == 0 && k > 0)
+        if (strcmp(quantities[k].key, "regime") == 0 && k > 0 && !(plain && quantities[k].asked))
             continue;
         const double *values = values_of(d, k);
         if (!values)

@@ -79,8 +79,8 @@ class Worlds(Case):
 
     def test_branch_of_levitation(self):
         scene, path, figure = self.scene("levitation"), self.path("b.json"), self.path("b.svg")
-        words = ("branch", scene, "--kind", "levitating", "--over", "magnet.parts[0].rotation[0]=3.5:6")
-        told = json.loads(self.good(*words, "--json", "-o", path))
+        branch = ("branch", scene, "--kind", "levitating", "--over", "magnet.parts[0].rotation[0]=3.5:6")
+        told = json.loads(self.good(*branch, "--json", "-o", path))
         with open(path, encoding="utf-8") as file:
             self.assertEqual(json.load(file), told)
         fold = next(s for s in told["specials"] if s["type"] == "fold")
@@ -91,11 +91,14 @@ class Worlds(Case):
         for name in ((), ("--quantity", "circle_mm"), ("--quantity", "multipliers")):
             self.good("plot", path, *name, "-o", figure)
             with open(figure, encoding="utf-8") as file:
-                self.assertIn(("distance from the magnet", "circle", "Eigenvalues")[len(name) and 1 + ("multipliers" in name)],
-                              file.read())
+                words = file.read()
+            self.assertIn(("distance from the magnet", "circle", "Eigenvalues")[len(name) and 1 + ("multipliers" in name)], words)
+            if "multipliers" not in name:
+                for side in ("stable, above the magnet", "stable, below the magnet"):
+                    self.assertIn(side, words)
         self.assertIn("height_mm", self.refused("plot", path, "--quantity", "festoons", "-o", figure))
-        self.assertIn("one of a family", self.refused(*words, "--set", "medium.spin_drag_rate=0"))
-        self.assertIn("leave it out", self.refused(*words, "--tolerance", "1e-9"))
+        self.assertIn("one of a family", self.refused(*branch, "--set", "medium.spin_drag_rate=0"))
+        self.assertIn("leave it out", self.refused(*branch, "--tolerance", "1e-9"))
 
     def test_trajectories(self):
         for name, frame in (("levitation", "turning"), ("compass", "laboratory"), ("wave", "laboratory")):

@@ -60,7 +60,7 @@ static void each_difference_is_named(void **state)
     int named = 0;
     for (int i = 0; i < fst_param_count(); ++i) {
         const fst_param_info *row = fst_param_at(i);
-        char value[64], wanted[192], names[3][FST_CAPTION_SIZE], same[192];
+        char value[64], wanted[FST_CAPTION_SIZE], names[3][FST_CAPTION_SIZE], same[FST_CAPTION_SIZE];
         const fst_params usual = fst_default_params();
         fst_params params = usual;
         const fst_params *const different[3] = {&usual, &params, &usual}, *const equal[2] = {&params, &params};
@@ -119,10 +119,45 @@ static void what_has_no_room_is_counted(void **state)
     assert_int_equal(told + left, all);
 }
 
+/* One key that has no room in two lines is told rather than counted; of two scenes of which one has room, by both. */
+static void one_more_is_named(void **state)
+{
+    (void)state;
+    static const char *const sets[][2] = {
+        {"bead.radius", "2.123456 mm"},        {"bead.mass", "0.9876543 g"},
+        {"magnet.half_length", "31.23456 mm"}, {"magnet.depth", "12.34567 mm"},
+        {"friction.gamma", "123.4567 1/s"},    {"plate.radius", "123.45678 mm"}};
+    char text[256] = "", names[2][FST_CAPTION_SIZE], same[FST_CAPTION_SIZE];
+    fst_params one = fst_default_params(), other;
+    for (int i = 0; i < 6; ++i) {
+        assert_null(strstr(text, " more"));
+        assert_int_equal(fst_params_set(&one, sets[i][0], sets[i][1], NULL), FST_OK);
+        text[0] = '\0';
+        fst_caption(&one, NULL, 0, text, sizeof text);
+    }
+    assert_true(strlen(text) > 150 && strlen(text) < 190);
+    for (int i = 0; i < 6; ++i)
+        assert_non_null(strstr(text, sets[i][0]));
+    other = one;
+    other.plate_radius = 0.2;
+    other.bead_radius = 1e-3;
+    other.bead_mass = 1e-3;
+    other.magnet_half_length = 0.03;
+    other.magnet_depth = 0.01;
+    other.friction_gamma = 300;
+    fst_caption_differences((const fst_params *[]){&one, &other}, 2, NULL, 0, names, same, sizeof same);
+    assert_string_equal(names[0], text);
+    for (int i = 0; i < 6; ++i) {
+        const char *place = strstr(names[1], sets[i][0]);
+        assert_true(place && !strstr(place + 1, sets[i][0]));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_key_is_named), cmocka_unit_test(each_difference_is_named),
-        cmocka_unit_test(values_have_their_units), cmocka_unit_test(what_has_no_room_is_counted)};
+        cmocka_unit_test(values_have_their_units), cmocka_unit_test(what_has_no_room_is_counted),
+        cmocka_unit_test(one_more_is_named)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -35,6 +35,11 @@ class Slices(Figures):
                 self.assertIn(f"model.kappa {kappa:g}", words(script))
                 for x, y in curve:
                     self.assertAlmostEqual(y, wanted[round(x, 6), kappa], 4)
+            # the regime has a panel where it is asked for, and points of one curve stand beside those of the other
+            _, blocks = self.plot("t.db", "--quantity", "mean_r,regime", "--only", f"bead.radius={radius}mm")
+            beside = [{round(y - round(y), 3) for _, y in curve} for curve in self.curves(blocks, 2) if len(curve) == 4]
+            self.assertEqual(beside, [{-0.175}, {0.175}])
+            self.assertFalse(any(name.startswith("panel4") for name in self.plot("t.db", "--only", f"bead.radius={radius}mm")[1]))
             _, blocks = self.plot("t.db", "--quantity", "mean_r", "--only", f"bead.radius={radius}mm", "--only", "model.kappa=1.5")
             self.assertEqual([round(y, 4) for _, y in self.curves(blocks, 1)[0]],
                              [round(wanted[f, 1.5], 4) for f in (9, 10, 11, 12)])
