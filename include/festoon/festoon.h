@@ -457,6 +457,11 @@ FST_API fst_groups fst_model_groups(const fst_model *model);
 FST_API fst_status fst_field_model_new(const fst_params *params, double height, fst_model **model,
                                        fst_error *error);
 
+/* Let the field of such a model be that at a time (1/gamma), on the laboratory's axes; and that time, NAN unless one was
+ * set. */
+FST_API fst_status fst_field_model_at(fst_model *model, double time, fst_error *error);
+FST_API double fst_field_time(const fst_model *model);
+
 #define FST_STATE_SIZE 10
 enum { FST_X, FST_Y, FST_VX, FST_VY, FST_NX, FST_NY, FST_NZ, FST_WX, FST_WY, FST_WZ };
 

@@ -117,15 +117,10 @@ FST_API char *fst_world_json(const fst_params *params, const fst_world_result *r
 FST_API char *fst_world_orbit_json(const fst_params *params, const fst_world_orbit *orbit,
                                    fst_shown_units units);
 
-/* The field of everything at a time and a place (fst_field_at()): `time`, `place`, `b`, `grad`, and in SI where B0 is
- * known. */
-FST_API char *fst_field_at_json(const fst_params *params, double time, const double place[3], const double b[3],
-                                double grad[3][3]);
-
-/* The field at (x, y), as JSON like the above: `x`, `y`, `b` (3), `grad` (3 x 3), in the magnet's frame,
+/* The field at (x, y), as JSON: `x`, `y`, `b` (3), `grad` (3 x 3), in the magnet's frame,
  * scaled; `height`, and the `force` and `load` of fst_field_pull(); with FST_SHOWN_LAB or FST_SHOWN_SI also
  * `b_tesla` and `grad_tesla_per_m`, null where B0 does not follow from the parameters, `force_newtons` and
- * `load_newtons`.  Of a smoothed map also their errors, `b_error` and so on, and `fit`. */
+ * `load_newtons`; at a time (fst_field_model_at()) `time`.  Of a smoothed map also their errors, `b_error` and so on, and `fit`. */
 FST_API char *fst_field_json(const fst_model *model, double x, double y, fst_shown_units units);
 
 /* ------------------------------------------------------------------ trajectories */

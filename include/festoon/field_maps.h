@@ -92,7 +92,7 @@ FST_API fst_status fst_field_map_draw(const fst_field_map *smooth, uint64_t seed
 
 /* The standard errors of what fst_field() and fst_field_pull() tell of a model over a smoothed map, in the same units;
  * the load has the error of force[2].  That of the force is linear in the field's: too large where |B| is not far above
- * its error.  0, and no number written: the model has no such map, or the place is beyond it. */
+ * its error.  0, and no number written: the model has no such map, the place is beyond it, or a time was set. */
 FST_API int fst_field_error(const fst_model *model, double x, double y, double b[3], double grad[3][3],
                             double force[3]);
 

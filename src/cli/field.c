@@ -13,7 +13,8 @@ static const option options[] = {
      "in l or with a unit, above the magnet's mid-plane (real magnets: reference plane); otherwise at the "
      "bead's centre"},
     {"time", '\0', "T",
-     "the field at a point after this time (s), of all that makes one, on the laboratory's axes"},
+     "the field at a point after this time (s), of all that makes one, on the laboratory's axes; not of "
+     "figures"},
     {"output", 'o', "FIG", "draw the map of the field to FIG.svg, .pdf or .png"},
     {"quantity", '\0', FST_WORDS(FST_FIELDS),
      "what the map shows: |B| (the default), a component of B, or the force or the load of a bead"},
@@ -31,9 +32,6 @@ static const option options[] = {
     LOOK_OPTIONS,
     {NULL, '\0', NULL, NULL},
 };
-
-/* What a place and a field mean where more than a turning magnet makes it. */
-#define ALL_FIELDS "at the time 0 of all that makes a field, laboratory's axes"
 
 /* What is smaller than the rounding errors of the sum over the lines is shown as the zero that it is. */
 static double above_rounding(double value, double greatest)
@@ -195,40 +193,13 @@ static fst_status check_outside(const fst_params *params, const double at[2], do
         1e3 * place[0], 1e3 * place[1], 1e3 * place[2], part, kind);
 }
 
-/* The field of everything that makes one, at a time. */
-static fst_status print_at_time(const arguments *given, const fst_params *params, const double place[3],
-                                fst_shown_units units, FILE *out, fst_error *error)
-{
-    static const char *const axes[] = {"x", "y", "z"};
-    const fst_scales scales = fst_scales_of(params);
-    const char *tesla, *metre;
-    const double length = fst_unit_shown("l", units, &scales, &metre);
-    const double field = fst_unit_shown("B0", units, &scales, &tesla), slope = field / length;
-    double seconds = 0.0, b[3], grad[3][3];
-    const char *text = option_value(given, "time");
-    fst_status status = fst_parse_value(text, FST_UNIT_TIME, &seconds, error);
-    if (status != FST_OK || !(fabs(seconds) < 1e9))
-        return fail(error, FST_BAD_INPUT, "--time", "\"%.40s\" must be a time, as in 0.2 or 20ms", text);
-    const double time = seconds * params->friction_gamma;
-    status = fst_field_at(params, time, place, b, grad, error);
-    if (status != FST_OK)
-        return status;
-    if (option_value(given, "json"))
-        return print_and_free(fst_field_at_json(params, time, place, b, grad), out, error);
-    (void)fprintf(
-        out, "after %g s, on the laboratory's axes, at %.9g %.9g %.9g %s; fields in %s, gradients in %s/%s:\n",
-        seconds, length * place[0], length * place[1], length * place[2], metre, tesla, tesla, metre);
-    for (int i = 0; i < 3; ++i)
-        (void)fprintf(out, "B%s = %.9g, its gradient %.9g %.9g %.9g\n", axes[i], field * b[i],
-                      slope * grad[i][0], slope * grad[i][1], slope * grad[i][2]);
-    return FST_OK;
-}
-
 static fst_status print_point(const arguments *given, const fst_params *params, double h, fst_shown_units units,
                               FILE *out, fst_error *error)
 {
-    const int surrounded = fst_key_of_surroundings(params) != NULL;
-    double at[2] = {0.0, 0.0};
+    const char *time = option_value(given, "time");
+    const int in_si = fst_key_of_surroundings(params) || time;
+    char frame[96];
+    double at[2] = {0.0, 0.0}, seconds = 0.0;
     fst_model *model = NULL;
     const int shape = option_value(given, "height") ? FST_PLATE_NONE : params->plate_shape;
     const char *whose = shape == FST_PLATE_FLAT   ? NULL
@@ -239,20 +210,22 @@ static fst_status print_point(const arguments *given, const fst_params *params, 
         status = read_place(option_value(given, "at"), fst_model_groups(model).length_unit, at, error);
     if (status == FST_OK && !(fabs(at[0]) < farthest && fabs(at[1]) < farthest))
         status = fail(error, FST_BAD_INPUT, "", "--at %g,%g is out of range: up to %g", at[0], at[1], farthest);
-    if (status == FST_OK && option_value(given, "time") && !isnan(fst_field_height(model, at[0], at[1]))) {
-        const double place[3] = {at[0], at[1], fst_field_height(model, at[0], at[1])};
-        fst_model_free(model);
-        return print_at_time(given, params, place, units, out, error);
-    }
-    if (status == FST_OK)
+    if (status == FST_OK && time &&
+        (fst_parse_value(time, FST_UNIT_TIME, &seconds, error) != FST_OK || !(fabs(seconds) < 1e9)))
+        status = fail(error, FST_BAD_INPUT, "--time", "\"%.40s\" must be a time, as in 0.2 or 20ms", time);
+    if (status == FST_OK && time)
+        status = fst_field_model_at(model, seconds * params->friction_gamma, error);
+    if (status == FST_OK && !time)
         status = check_outside(params, at, fst_field_height(model, at[0], at[1]), error);
     if (status == FST_OK && !is_known(model, at))
         status = fail(error, FST_BAD_INPUT, "--at", "%g,%g lies %s", at[0], at[1], why_unknown(model, at));
     if (status == FST_OK && option_value(given, "json"))
-        status =
-            print_and_free(fst_field_json(model, at[0], at[1], surrounded ? FST_SHOWN_SI : units), out, error);
-    else if (status == FST_OK)
-        print_text(out, model, at, whose, surrounded ? ALL_FIELDS : "magnet's frame", units);
+        status = print_and_free(fst_field_json(model, at[0], at[1], in_si ? FST_SHOWN_SI : units), out, error);
+    (void)snprintf(frame, sizeof frame,
+                   in_si ? "at the time %g s of all that makes a field, laboratory's axes" : "magnet's frame",
+                   seconds);
+    if (status == FST_OK && !option_value(given, "json"))
+        print_text(out, model, at, whose, frame, units);
     fst_model_free(model);
     return status;
 }
@@ -387,9 +360,13 @@ static fst_status check_asked(const arguments *given, const char *at, const char
     if (!at && !figure && !csv)
         return fail(error, FST_BAD_INPUT, "",
                     "say where with --at X,Y, draw a map with -o FIG.svg, or write one with --csv FILE.csv");
-    if (option_value(given, "time") && !at)
+    if (option_value(given, "time") && (!at || figure || csv))
         return fail(error, FST_BAD_INPUT, "--time",
-                    "it is the time of a field at a point: give one with --at X,Y");
+                    "it is the time of a field at a point, with --at X,Y; figures and tables are those of the "
+                    "time 0: leave %s",
+                    !at      ? "it out, or give a point"
+                    : figure ? "-o or --time out"
+                             : "--csv or --time out");
     if (option_value(given, "json") && !at)
         return fail(error, FST_BAD_INPUT, "", "--json prints the field at a point: give one with --at X,Y");
     if ((option_value(given, "radius") || option_value(given, "spacing")) && !csv)

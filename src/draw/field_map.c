@@ -293,11 +293,39 @@ static void choose_units(survey *s, fst_shown_units units)
     fst_unit_symbols(name, s->unit, sizeof s->unit);
 }
 
+/* Lines of dipoles; a wave is there in place of a magnet. */
+static int is_bar(const fst_params *p)
+{
+    return p->magnet_shape == FST_MAGNET_LINES && p->drive_waveform != FST_WAVEFORM_WAVE;
+}
+
+/* Whose field it is, where more than a turning magnet makes it. */
+static void name_sources(const fst_params *p, char *text, size_t size)
+{
+    const int wave = p->drive_waveform == FST_WAVEFORM_WAVE, parts = p->magnet_shape == FST_MAGNET_PARTS;
+    const double *b = p->field_uniform;
+    int count = 0;
+    char coils[32];
+    (void)snprintf(coils, sizeof coils, "%d coil%s", p->coil_count, p->coil_count == 1 ? "" : "s");
+    const char *const names[] = {wave ? "a wave" : NULL,
+                                 (parts ? p->magnet_part_count > 0 : !wave) ? "the magnet" : NULL,
+                                 p->coil_count ? coils : NULL,
+                                 fabs(b[0]) > 0 || fabs(b[1]) > 0 || fabs(b[2]) > 0 ? "a uniform field" : NULL};
+    (void)snprintf(text, size, "; of ");
+    for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
+        if (names[i])
+            (void)snprintf(text + strlen(text), size - strlen(text), "%s%s", count++ ? " and " : "", names[i]);
+    (void)snprintf(text + strlen(text), size - strlen(text), " at the time 0, on the laboratory's axes");
+}
+
 static void put_words(fst_field_picture *picture, const survey *s, int other_height)
 {
-    const int bar = s->params->magnet_shape == FST_MAGNET_LINES;
+    const int bar = is_bar(s->params);
     const double longest = s->value * s->strongest;
     const int all = fst_key_of_surroundings(s->params) != NULL;
+    char sources[160] = "";
+    if (all)
+        name_sources(s->params, sources, sizeof sources);
     const char *title = !all                                ? words[s->quantity].title
                         : s->quantity == FST_FIELD_STRENGTH ? "The field"
                         : s->quantity == FST_FIELD_FORCE    ? "The horizontal pull on a bead"
@@ -310,8 +338,7 @@ static void put_words(fst_field_picture *picture, const survey *s, int other_hei
                        is_of_bead(s) ? "" : " at the height of the bead's centre");
     (void)snprintf(picture->about, sizeof picture->about, "%s: ℓ = %.4g mm%s%s",
                    bar ? "half length of the magnet's lines" : "unit of length", 1e3 * s->groups.length_unit,
-                   is_of_bead(s) ? "; the bead's moment along the field" : "",
-                   all ? "; all that makes a field, at the time 0 on the laboratory's axes" : "");
+                   is_of_bead(s) ? "; the bead's moment along the field" : "", sources);
     fst_caption(s->params, NULL, 0, picture->about, sizeof picture->about);
     (void)snprintf(picture->x_label, sizeof picture->x_label, "X (%s)%s", s->length_unit,
                    bar ? ", along the magnet's lines" : "");
@@ -342,7 +369,7 @@ static int choose_extent(survey *s, const fst_field_options *options, void **mem
 {
     const double h = s->groups.h, half_lines = 0.5 * (s->groups.lines - 1) * s->groups.lambda;
     const double l = s->groups.length_unit;
-    const int bar = s->params->magnet_shape == FST_MAGNET_LINES;
+    const int bar = is_bar(s->params);
     s->half_width = fmin(1.0 + 0.9 * h + 0.3, s->groups.map_radius); /* a measured field ends there */
     s->half_height = bar ? half_lines + 0.9 * h : s->half_width;
     fst_magnet_body *bodies = fst_keep(memory, FST_PARTS_MAX * sizeof *bodies);
@@ -366,7 +393,9 @@ static int choose_extent(survey *s, const fst_field_options *options, void **mem
 
 static int put_magnet(fst_field_picture *picture, const survey *s)
 {
-    if (s->params->magnet_shape != FST_MAGNET_LINES)
+    if (!is_bar(s->params) && s->params->magnet_shape == FST_MAGNET_LINES)
+        return 1;
+    if (!is_bar(s->params))
         return fst_magnet_lines(s->params, s->length, 0.0, "below the plate", picture->lines,
                                 &picture->line_count, &picture->memory);
     picture->line_count = 1;

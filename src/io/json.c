@@ -400,6 +400,8 @@ char *fst_field_json(const fst_model *model, double x, double y, fst_shown_units
     fst_field(model, x, y, b, grad);
     fst_field_pull(model, x, y, force, &load);
     fst_json json = fst_json_begin('{');
+    if (isfinite(fst_field_time(model)))
+        fst_json_real(&json, "time", fst_field_time(model));
     fst_json_real(&json, "x", x);
     fst_json_real(&json, "y", y);
     put_field(&json, b, grad, 1.0, 1.0, "b", "grad");
@@ -409,23 +411,6 @@ char *fst_field_json(const fst_model *model, double x, double y, fst_shown_units
     put_pull(&json, &g, force, load, (const char *const[]){"force", "load", "force_newtons", "load_newtons"},
              in_si);
     put_errors(&json, model, x, y, in_si);
-    return fst_json_end(&json, JSON_INDENT(2));
-}
-
-char *fst_field_at_json(const fst_params *params, double time, const double place[3], const double b[3],
-                        double grad[3][3])
-{
-    fst_model *model = NULL;
-    if (fst_field_model_new(params, NAN, &model, NULL) != FST_OK)
-        return NULL;
-    const fst_groups g = fst_model_groups(model);
-    fst_model_free(model);
-    fst_json json = fst_json_begin('{');
-    fst_json_real(&json, "time", time);
-    fst_json_reals(&json, "place", place, 3);
-    put_field(&json, b, grad, 1.0, 1.0, "b", "grad");
-    if (isfinite(g.field_unit))
-        put_field(&json, b, grad, g.field_unit, g.field_unit / g.length_unit, "b_tesla", "grad_tesla_per_m");
     return fst_json_end(&json, JSON_INDENT(2));
 }
 

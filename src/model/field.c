@@ -44,6 +44,21 @@ fst_status fst_field_model_new(const fst_params *params, double height, fst_mode
     return status;
 }
 
+fst_status fst_field_model_at(fst_model *model, double time, fst_error *error)
+{
+    const fst_status status = model->surroundings ? FST_OK : surround(model, error);
+    if (status != FST_OK)
+        return status;
+    (void)fst_waveform_enter(&model->surroundings->drive, time);
+    model->field_time = time;
+    return FST_OK;
+}
+
+double fst_field_time(const fst_model *model)
+{
+    return model->field_time;
+}
+
 fst_status fst_model_new(const fst_params *params, fst_model **model, fst_error *error)
 {
     *model = NULL;
@@ -86,8 +101,12 @@ double fst_field_height(const fst_model *model, double x, double y)
 
 void fst_field(const fst_model *model, double x, double y, double b[3], double grad[3][3])
 {
-    const double height = fst_field_height(model, x, y);
-    if (!is_known(model, x, y) || isnan(height)) {
+    const double height = fst_field_height(model, x, y),
+                 time = isnan(model->field_time) ? 0.0 : model->field_time;
+    double own[3] = {x, y, height}; /* the place on the magnet's axes */
+    if (model->surroundings)
+        fst_place_on_magnet(model->surroundings, time, (const double[]){x, y, height}, own);
+    if (!is_known(model, own[0], own[1]) || isnan(height)) {
         for (int i = 0; i < 3; ++i)
             b[i] = grad[i][0] = grad[i][1] = grad[i][2] = NAN;
         return;
@@ -95,7 +114,7 @@ void fst_field(const fst_model *model, double x, double y, double b[3], double g
     fst_gradient_double g;
     double change[3];
     if (model->surroundings)
-        fst_surroundings_field(model->surroundings, 0.0, (const double[]){x, y, height}, b, &g, change);
+        fst_surroundings_field(model->surroundings, time, (const double[]){x, y, height}, b, &g, change);
     else
         fst_field_double(&model->world, x, y, height, b, &g);
     write_gradient(&g, grad);

@@ -155,6 +155,7 @@ static fst_status make_model(const fst_params *params, double height, fst_model 
     made->has_s2 = field_has_s2(params, &made->world, &g);
     made->bowl = 0.0;
     made->surroundings = NULL;
+    made->field_time = NAN;
     made->map = g.shape == FST_MAGNET_GRID ? fst_field_map_share(params->magnet_map) : NULL;
     return FST_OK;
 }

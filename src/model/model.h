@@ -15,7 +15,8 @@ struct fst_model {
     int has_s2;         /* whether the magnet's field has the symmetry S2: B(-X, -Y) = (B_X, B_Y, -B_Z)(X, Y) */
     double bowl;        /* for fst_field(), where a bead's centre stays on a sphere: its radius; else 0 */
     struct fst_surroundings
-        *surroundings; /* for fst_field(), where more than a turning magnet makes it; else NULL */
+        *surroundings; /* for fst_field(), where more than a turning magnet makes it, or at a time; else NULL */
+    double field_time; /* of fst_field(); NAN: 0, on the magnet's axes */
 };
 
 /* The height of a bead's centre on the plate over the magnet's reference plane, in l. */

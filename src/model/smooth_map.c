@@ -187,7 +187,7 @@ int fst_field_error(const fst_model *model, double x, double y, double b[3], dou
     double out[CHARGE_VALUES], covariance[CHARGE_VALUES][CHARGE_VALUES], here[3], slope[3][3], *room;
     const double place[3] = {x * g->length_unit, y * g->length_unit, g->h * g->length_unit};
     fst_field(model, x, y, here, slope);
-    if (!charges || isnan(here[0]) || !(room = fst_charges_room(charges)))
+    if (!charges || !isnan(model->field_time) || isnan(here[0]) || !(room = fst_charges_room(charges)))
         return 0;
     fst_charges_look(charges, place, CHARGE_VALUES, room, out, covariance[0]);
     free(room);

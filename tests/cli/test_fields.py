@@ -87,10 +87,26 @@ class Fields(Case):
             self.assertAlmostEqual(abs(b[axis]), 4e-7 * math.pi * 200 * 2 / (2 * 0.1), delta=1e-9)
             self.assertAlmostEqual(b[2 - axis], 0, delta=1e-9)
         # the magnet turned by a quarter
-        one = json.loads(self.good("field", "--at", "0.5,0.2", "--json"))["b"]
-        two = json.loads(self.good("field", *sets(drive__frequency="10 Hz"), "--at", "-0.2,0.5", "--time", "25ms", "--json"))["b"]
-        for wanted, found in zip((-one[1], one[0], one[2]), two):
-            self.assertAlmostEqual(wanted, found, delta=1e-12)
+        one = json.loads(self.good("field", "--at", "0.5,0.2", "--json"))
+        turned = ("field", *sets(drive__frequency="10 Hz"), "--at", "-0.2,0.5", "--time", "25ms")
+        two = json.loads(self.good(*turned, "--json"))
+        for key in ("b", "force"):
+            for wanted, found in zip((-one[key][1], one[key][0], one[key][2]), two[key]):
+                self.assertAlmostEqual(wanted, found, delta=1e-12)
+        self.assertAlmostEqual(one["load"], two["load"], delta=1e-12)
+        self.assertAlmostEqual(two["time"], 0.025 * 312.5, delta=1e-12)
+        self.assertIn(f"|B| = {math.hypot(*one['b']):.9g} B0", self.good(*turned))
+        self.assertIn("those of the time 0", self.refused(*turned, "-o", self.path("f.svg")))
+        figure = self.path("f.svg")
+        for scene, of in (("coils", "of 2 coils at the time 0"), ("compass", "a uniform field at the time 0")):
+            self.good("field", os.path.join(WORLDS, scene + ".yaml"), "-o", figure)
+            with open(figure[:-4] + ".gp", encoding="utf-8") as script:
+                self.assertIn(of, script.read().replace("\n", " "))
+        self.good("field", *sets(drive__waveform="wave", wave__length="60 mm", wave__amplitude="2 mT", magnet__b0="10 mT"), "-o", figure)
+        with open(figure[:-4] + ".gp", encoding="utf-8") as script:
+            words = script.read()
+        self.assertIn("of a wave at the time 0", words)
+        self.assertNotIn("magnet's lines", words)
 
     def test_a_table_and_a_place_tell_the_same_field(self):
         """Of all that makes one, in every scene, but for rounding: --csv, --at, and --time 0; bit for bit where more than a magnet makes it."""
@@ -122,7 +138,7 @@ class Fields(Case):
         with_force = json.loads(self.good("field", disc, "--at", "5mm,2mm", "--json"))
         self.assertGreater(math.hypot(*with_force["force"]), 0.0)
         self.assertIn(" mT", self.good("field", disc, "--at", "5mm,2mm", "--units", "lab"))
-        self.assertIn("fields in mT", self.good("field", disc, "--at", "5mm,2mm", "--units", "lab", "--time", "1"))
+        self.assertIn("B (mT)", self.good("field", disc, "--at", "5mm,2mm", "--units", "lab", "--time", "1"))
         # the wave's height is the bead's, also where another one is asked
         wave = os.path.join(WORLDS, "wave.yaml")
         low, high = (json.loads(self.good("field", wave, "--at", "0,0", "--json", *words))["b_tesla"][0] for words in ((), ("--height", "7.5mm")))
