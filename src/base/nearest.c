@@ -209,9 +209,10 @@ const char *fst_suggest_name(const char *word, const char *names, char text[FST_
                      is_near(word, nearest, edits) || ends_so(word, names, nearest, sizeof nearest);
     if (length <= LIST_ALONE)
         write_list(names, list);
-    if (!near && length <= LIST_ALONE)
-        (void)snprintf(text, FST_SUGGESTION_SIZE, "choose one of %.500s", list);
-    else if (length <= LIST_BESIDE)
+    if (!near)
+        (void)snprintf(text, FST_SUGGESTION_SIZE,
+                       length <= LIST_ALONE ? "choose one of %.500s" : "no name is like it", list);
+    else if (length <= LIST_BESIDE && strchr(names, '|'))
         (void)snprintf(text, FST_SUGGESTION_SIZE, "the nearest is %s (choices: %.250s)",
                        meant ? meant : nearest, list);
     else

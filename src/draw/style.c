@@ -73,9 +73,15 @@ void fst_figure_logarithmic(fst_figure_file *figure, const char *axis, double lo
 {
     static const double mantissas[] = {1.0, 2.0, 5.0};
     const int first = (int)floor(log10(low)), last = (int)floor(log10(high));
-    (void)fprintf(figure->script, "set logscale %s\nset %stics (", axis, axis);
     const char *separator = "";
-    for (int decade = first; decade <= last; ++decade)
+    const double step = fst_round_step((high - low) / 5.0);
+    const int few = high < 5.0 * low; /* it may have one of 1, 2, 5 or none */
+    (void)fprintf(figure->script, "set logscale %s\nset %stics (", axis, axis);
+    for (double tic = step * ceil(low / step - 1e-6); few && tic <= 1.000001 * high; tic += step) {
+        (void)fprintf(figure->script, "%s%.6g", separator, tic);
+        separator = ", ";
+    }
+    for (int decade = first; decade <= last && !few; ++decade)
         for (int i = 0; i < (last - first > 3 ? 1 : 3); ++i) {
             const double tic = mantissas[i] * pow(10.0, decade);
             if (tic < 0.999999 * low || tic > 1.000001 * high)

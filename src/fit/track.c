@@ -23,8 +23,9 @@
 #include "fit/film.h"
 #include "fit/film_slip.h"
 
-#define NOISE 1e-4  /* m, of a place, as long as it is not measured */
-#define FAR_OFF 4.0 /* scatters from frame to frame, by which places lie off a path that is not theirs */
+#define NOISE 1e-4       /* m, of a place, as long as it is not measured */
+#define FAR_OFF 4.0      /* scatters from frame to frame, by which places lie off a path that is not theirs */
+#define WITH_MAGNET 1e-3 /* rates that differ by less, over the drive, are one */
 enum { WINDOWS = 3 };
 
 /* Where the parts of the work end: measuring the track, fitting the three numbers of the film. */
@@ -335,6 +336,20 @@ static fst_status begin(fit_film *f, const fst_params *params, const fst_measure
     return status;
 }
 
+/* Say why there is no orbit, if the bead of the film goes round with the magnet. */
+static fst_status tell_of_lock(const fst_measurement *seen, const fst_fit_options *options, fst_error *error)
+{
+    const double drive = isfinite(options->drive) ? options->drive : seen->drive_from_track_hz;
+    if (!(fabs(seen->bead_frequency_hz - drive) < WITH_MAGNET * fabs(drive)))
+        return FST_NO_CONVERGENCE;
+    return fst_fail(
+        error, FST_NO_CONVERGENCE, "fst_track",
+        "in this film the bead is locked to the magnet (%.6g Hz), and a bead that stands still on the magnet's "
+        "axes has no orbit to fit: film it at a faster drive, where it swings about the magnet or circles at "
+        "another rate",
+        drive);
+}
+
 fst_status fst_fit_track(const fst_params *params, fst_track *track, const fst_fit_options *options,
                          fst_fit *fit, fst_error *error)
 {
@@ -346,6 +361,7 @@ fst_status fst_fit_track(const fst_params *params, fst_track *track, const fst_f
     int rejected = 0;
     memset(&f, 0, sizeof f);
     memset(&e, 0, sizeof e);
+    seen.bead_frequency_hz = NAN;
     f.noise = NOISE;
     f.slip_scale = 1.0;
     memset(fit, 0, sizeof *fit);
@@ -382,6 +398,8 @@ fst_status fst_fit_track(const fst_params *params, fst_track *track, const fst_f
         status = fit_slip_report(&f, v, fit, error);
     if (status == FST_OK)
         status = doubt(&f, &seen, left, fit, error);
+    if (status == FST_NO_CONVERGENCE)
+        status = tell_of_lock(&seen, options, error);
     fit_film_free(&f);
     if (status != FST_OK)
         fst_fit_free(fit);

@@ -120,7 +120,8 @@ static int may_mean(const char *wrong, const char *key, int how)
     return how == ANY_KEY || (!point && strlen(name) > 2 && strncmp(own, name, strlen(name)) == 0);
 }
 
-/* The key whose own name is nearest to a wrong one that has no group: "kapa" is far from all of "model.kappa". */
+/* The key whose own name is nearest to a wrong one that has no group: "kapa" is far from all of "model.kappa".  NULL: more
+ * than a third of its letters are others. */
 static const char *key_of_nearest_name(const char *wrong)
 {
     char names[ROW_COUNT * 32] = "", nearest[48];
@@ -129,8 +130,8 @@ static const char *key_of_nearest_name(const char *wrong)
         (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "",
                        strchr(rows[i].key, '.') + 1);
     }
-    fst_nearest_name(wrong, names, nearest, sizeof nearest);
-    return rows[fst_name_place(nearest, names)].key;
+    const int edits = fst_nearest_name(wrong, names, nearest, sizeof nearest);
+    return 3 * (size_t)edits > strlen(wrong) ? NULL : rows[fst_name_place(nearest, names)].key;
 }
 
 fst_status fst_param_unknown_key(const char *key, fst_error *error)
@@ -153,10 +154,12 @@ fst_status fst_param_unknown_key(const char *key, fst_error *error)
             if (may_mean(key, rows[i].key, how))
                 (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "", rows[i].key);
         }
+    const char *nearest = names[0] ? NULL : key_of_nearest_name(key);
     if (names[0])
         (void)fst_suggest_name(key, names, suggestion);
     else
-        (void)snprintf(suggestion, sizeof suggestion, "the nearest is %s", key_of_nearest_name(key));
+        (void)snprintf(suggestion, sizeof suggestion, nearest ? "the nearest is %s" : "no name is like it",
+                       nearest);
     return fst_fail(error, FST_BAD_INPUT, key, "unknown key %s; %s (fst_param_at() lists them all)",
                     fst_quote(key, quoted), suggestion);
 }

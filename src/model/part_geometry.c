@@ -153,6 +153,8 @@ double fst_part_distance(const fst_magnet_part *part, const double place[3])
 
 /* ------------------------------------------------------------------ two parts */
 
+enum { LOOKED_AT = 3 }; /* degrees of the magnet's turn */
+
 static double thickness(const fst_magnet_part *part)
 {
     const double *size = part->size;
@@ -186,6 +188,18 @@ static void move_within(const fst_magnet_part *part, double depth, double place[
     outwards(part, axes, own, place);
 }
 
+/* Whether a plane across the way between a place in one part and one in the other has them on its two sides. */
+static int are_apart(const fst_magnet_part *one, const fst_magnet_part *other, const double way[3],
+                     double length)
+{
+    double along[3], gap = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        along[i] = way[i] / length;
+        gap += along[i] * (one->centre[i] - other->centre[i]);
+    }
+    return gap > reach(one, along) + reach(other, along);
+}
+
 /* A place goes to and fro between the two, whose cores are convex: it comes as near to both as there is one.  A place in the
  * core of one that is nearer to the core of the other than that lies below the surface is within both. */
 int fst_parts_overlap(const fst_magnet_part *one, const fst_magnet_part *other)
@@ -200,7 +214,54 @@ int fst_parts_overlap(const fst_magnet_part *one, const fst_magnet_part *other)
         move_within(other, depth, place);
         memcpy(from, place, sizeof from);
         move_within(one, depth, place);
-        if (hypot(hypot(place[0] - from[0], place[1] - from[1]), place[2] - from[2]) < depth)
+        const double way[3] = {place[0] - from[0], place[1] - from[1], place[2] - from[2]};
+        const double length = hypot(hypot(way[0], way[1]), way[2]);
+        if (length < depth)
+            return 1;
+        if (are_apart(one, other, way, length))
+            return 0;
+    }
+    return 0;
+}
+
+/* A part that has turned with the magnet: its rotation (cos, sin k) of half angles, times that about z. */
+static fst_magnet_part turned(const fst_magnet_part *part, double degrees)
+{
+    fst_magnet_part now = *part;
+    const double *k = part->rotation + 1, half = 0.5 * FST_TWO_PI / 360.0,
+                 size = hypot(hypot(k[0], k[1]), k[2]);
+    const double c = cos(half * degrees), s = sin(half * degrees);
+    const double w = cos(half * part->rotation[0]),
+                 v = part->rotation[0] == 0.0 ? 0.0 : sin(half * part->rotation[0]) / size;
+    const double x = v * k[0], y = v * k[1], z = v * k[2];
+    const double axis[3] = {c * x - s * y, c * y + s * x, c * z + s * w},
+                 sine = hypot(hypot(axis[0], axis[1]), axis[2]);
+    now.centre[0] = (c * c - s * s) * part->centre[0] - 2.0 * c * s * part->centre[1];
+    now.centre[1] = (c * c - s * s) * part->centre[1] + 2.0 * c * s * part->centre[0];
+    now.rotation[0] = sine > 0.0 ? 2.0 * atan2(sine, c * w - s * z) * 360.0 / FST_TWO_PI : 0.0;
+    memcpy(now.rotation + 1, sine > 0.0 ? axis : k, sizeof axis);
+    return now;
+}
+
+/* Whether a part that turns meets one that stands still, and by how many degrees the magnet has turned then.  What is
+ * round about the axis does at any angle or at none. */
+static int meet_in_a_turn(const fst_params *p, const fst_magnet_part *one, const fst_magnet_part *other,
+                          int *angle)
+{
+    static const double up[3] = {0, 0, 1};
+    const fst_magnet_part *moving = one->motion == FST_PART_TURNING ? one : other,
+                          *still = moving == one ? other : one;
+    const double most = p->drive_waveform == FST_WAVEFORM_STEADY || p->drive_waveform == FST_WAVEFORM_CHIRP
+                            ? 180.0
+                        : p->drive_waveform == FST_WAVEFORM_OSCILLATING ? fmin(p->drive_amplitude, 180.0)
+                                                                        : 0.0;
+    if (moving->motion == still->motion ||
+        fabs(one->centre[2] - other->centre[2]) > reach(one, up) + reach(other, up))
+        return 0;
+    for (int i = 0; i <= 2 * (int)(most / LOOKED_AT); ++i) {
+        *angle = LOOKED_AT * (i % 2 ? -(i + 1) / 2 : i / 2);
+        const fst_magnet_part now = turned(moving, *angle);
+        if (fst_parts_overlap(&now, still))
             return 1;
     }
     return 0;
@@ -282,6 +343,23 @@ static int may_overlap(const fst_params *p, int a, int b)
     return 0;
 }
 
+/* The first two parts that meet while the magnet turns. */
+static int meet(const fst_params *p, char *sentence, size_t size)
+{
+    int angle;
+    for (int a = 0; a < p->magnet_part_count && p->magnet_shape == FST_MAGNET_PARTS; ++a)
+        for (int b = a + 1; b < p->magnet_part_count; ++b)
+            if (!may_overlap(p, a, b) && meet_in_a_turn(p, &p->magnet_parts[a], &p->magnet_parts[b], &angle)) {
+                (void)snprintf(sentence, size,
+                               "magnet.parts[%d] and magnet.parts[%d], of which one turns and the other stands "
+                               "still, meet "
+                               "where the magnet has turned by %d degrees (looked at every %d)",
+                               a, b, angle, LOOKED_AT);
+                return 1;
+            }
+    return 0;
+}
+
 int fst_parts_contradiction(const fst_params *p, char *sentence, size_t size)
 {
     int pairs = 0, first[2] = {0, 0};
@@ -294,7 +372,7 @@ int fst_parts_contradiction(const fst_params *p, char *sentence, size_t size)
                 first[1] = b;
             }
     if (pairs == 0)
-        return 0;
+        return meet(p, sentence, size);
     if (pairs > 1)
         (void)snprintf(others, sizeof others, " (as %d other pair%s)", pairs - 1, pairs > 2 ? "s do" : " does");
     if (cancel(&p->magnet_parts[first[0]], &p->magnet_parts[first[1]]))

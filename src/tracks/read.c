@@ -185,6 +185,12 @@ fst_status track_read_text(const fst_text *text, const fst_track_options *option
     format which = is_trajectory(text) ? FORMAT_TRAJECTORY : FORMAT_GENERIC;
     if (header == text->count && which != FORMAT_TRAJECTORY)
         return fst_fail(error, FST_BAD_INPUT, text->path, "the file is empty");
+    if (text->count > 0 && strcmp(text->lines[0], "# festoon trajectory of beads") == 0)
+        return fst_fail(
+            error, FST_BAD_INPUT, text->path,
+            "this is a trajectory of several beads, or of one in a world, which has X_0, Y_0 and so on, mostly "
+            "on axes that turn with the magnet, and not x and y of a track: the run itself tells the means "
+            "of each bead, and its film can be tracked");
     fst_status status = options->format              ? named_format(options->format, &which, error)
                         : which == FORMAT_TRAJECTORY ? FST_OK
                                                      : recognise(text, header, &which, error);

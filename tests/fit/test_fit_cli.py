@@ -155,6 +155,14 @@ class Fit(unittest.TestCase):
             text.write("\n".join(["frame,t [s],x [mm],y [mm],track,doubts", *rows]) + "\n")
         self.refused(["--track", path, "--free", "model.kappa"], "the film has 2 beads")
 
+    def test_a_film_of_a_locked_bead(self):
+        path = os.path.join(self.folder.name, "locked.csv")
+        done = festoon("run", "--set", "drive.frequency=3 Hz", "--set", "run.periods=40", "--set", "run.samples=80", "--csv", path)
+        self.assertEqual(done[0], 0, done[2])
+        status, _, err = festoon("fit", "--track", path, "--free", "model.kappa", "--drive", "3Hz")
+        self.assertNotEqual(status, 0)
+        self.assertIn("in this film the bead is locked to the magnet (3 Hz)", err)
+
     def test_the_drive_of_a_film(self):
         """It is said how the magnet turned, with an error that covers the truth, and from where that is known."""
         path = os.path.join(self.folder.name, "film.csv")

@@ -163,6 +163,9 @@ static void messages_help(void **state)
     expect_message("kapa", "1", "the nearest is model.kappa");
     expect_message("frequncy", "1", "the nearest is drive.frequency");
     expect_message("radus", "1", "the nearest is bead.radius");
+    /* No name is proposed that is far off. */
+    expect_message("zebra", "1", "no name is like it");
+    expect_message("plate.zebra", "1", "no name is like it");
     expect_message("run.method", "splitting", "splitting is gone");
     expect_message("run.controller", "plain", "leave the key out");
     expect_message("friction.contact_rate", "0", "leave the key out");

@@ -170,10 +170,44 @@ static void holes_and_what_fills_them(void **state)
     }
 }
 
+/* A bar that turns in the plane of a pin beside it meets it where its end comes by, and not where that is higher, farther
+ * out or does not come. */
+static void what_turns_meets_what_stands_still(void **unused)
+{
+    (void)unused;
+    static const struct {
+        double pin[3], amplitude; /* 0: it turns on */
+        int told;
+    } cases[] = {{{0, 22e-3, 0}, 0, 1},  {{0, 22e-3, 8e-3}, 0, 0}, {{0, 24e-3, 0}, 0, 0},
+                 {{0, 22e-3, 0}, 60, 0}, {{0, 22e-3, 0}, 90, 1},   {{0, -15e-3, 4e-3}, 0, 1}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+        fst_params params = fst_default_params();
+        char sentence[256] = "";
+        params.magnet_shape = FST_MAGNET_PARTS;
+        params.magnet_part_count = 2;
+        params.drive_waveform = cases[k].amplitude > 0 ? FST_WAVEFORM_OSCILLATING : FST_WAVEFORM_STEADY;
+        params.drive_amplitude = cases[k].amplitude;
+        fst_magnet_part *bar = &params.magnet_parts[0], *pin = &params.magnet_parts[1];
+        *bar = (fst_magnet_part){.kind = FST_PART_CUBOID, .size = {5e-3, 40e-3, 5e-3}, .remanence = {1, 0, 0}};
+        bar->rotation[0] = 90; /* its edge of 40 mm along x, by a turn of its own */
+        bar->rotation[3] = 2;
+        *pin = (fst_magnet_part){
+            .kind = FST_PART_CYLINDER, .size = {5e-3, 5e-3}, .remanence = {0, 0, 1}, .motion = FST_PART_FIXED};
+        pin->rotation[3] = 1;
+        memcpy(pin->centre, cases[k].pin, sizeof pin->centre);
+        assert_int_equal(fst_parts_contradiction(&params, sentence, sizeof sentence), cases[k].told);
+        if (cases[k].told)
+            CHECK_CONTAINS(sentence, "meet where the magnet has turned by");
+        pin->motion = FST_PART_TURNING;
+        assert_int_equal(fst_parts_contradiction(&params, sentence, sizeof sentence), 0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(holes_and_what_fills_them),
+        cmocka_unit_test(what_turns_meets_what_stands_still),
         cmocka_unit_test(parts_that_touch_do_not_overlap),
         cmocka_unit_test(parts_overlap_where_a_place_is_in_both),
     };

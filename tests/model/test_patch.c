@@ -291,6 +291,12 @@ static void test_bad_input(void **unused)
     fst_params p = fst_default_params();
     fst_error error = {FST_OK, "", ""};
     fst_model *model;
+    fst_params large = p;
+    large.friction_law = FST_FRICTION_COULOMB;
+    large.contact_patch = FST_PATCH_HERTZ;
+    large.contact_radius = large.bead_radius;
+    assert_int_equal(fst_model_new(&large, &model, &error), FST_BAD_INPUT);
+    CHECK_CONTAINS(error.sentence, "is not less than bead.radius = 2.5 mm");
     p.contact_radius = 1e-5;
     p.contact_modulus = 5e10;
     assert_int_equal(fst_model_new(&p, &model, &error), FST_BAD_INPUT);

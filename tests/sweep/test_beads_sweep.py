@@ -80,7 +80,7 @@ class Sweeps(Case):
         self.good("export", name, "--hdf5", "-o", self.path("s.h5"))
         single = self.path("one.db")
         self.good("sweep", "--set", "run.periods=2", "--set", "run.discard=1", "--over", "start.r=0.8,0.9", "-o", single)
-        self.assertIn("of one bead, have no outcome; the nearest is regime", self.refused("export", single, "--csv", "--quantity", "outcome"))
+        self.assertIn("of one bead, have no outcome; no name is like it", self.refused("export", single, "--csv", "--quantity", "outcome"))
 
     def test_refused(self):
         for words, said in ((("--carry", "up"), "leave this out"), (("--refine", "2"), "leave this out")):

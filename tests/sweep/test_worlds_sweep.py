@@ -65,7 +65,7 @@ class Sweeps(Case):
         self.assertEqual(lines[1].split(",")[2::2], ["turning", "done"])
         self.assertRegex(self.good("export", name, "--csv", "--units", "lab").splitlines()[0],
                          r"regime,mean_r \[mm\],mean_alpha_dot \[Hz\],mean_velocity \[mm/s\],status")
-        self.assertIn("of a bead in a world, have no std_r; the nearest is mean_r", self.refused("export", name, "--csv", "--quantity", "std_r"))
+        self.assertIn("of a bead in a world, have no std_r; no name is like it", self.refused("export", name, "--csv", "--quantity", "std_r"))
         self.good("export", name, "--hdf5", "-o", self.path("s.h5"))
         self.good("plot", name, "-o", self.path("s.svg"))
 

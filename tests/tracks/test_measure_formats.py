@@ -56,6 +56,14 @@ class Formats(Measure):
         self.assertEqual((found["frames"], found["lost"]), (len(self.ROWS), 0))
         return found
 
+    def test_a_trajectory_of_beads_is_no_track(self):
+        path = self.write("", "beads.csv")
+        scene = os.path.join(os.environ["SOURCE_DIR"], "examples", "worlds", "bowl.yaml")
+        subprocess.run([FESTOON, "run", scene, "--set", "run.periods=2", "--set", "run.discard=1", "--csv", path], check=True,
+                       capture_output=True)
+        with open(path, encoding="utf-8") as file:
+            self.assertIn("trajectory of several beads, or of one in a world", self.refused(file.read()))
+
     def test_own(self):
         self.check(tracks.own(self.ROWS), shown="festoon's own table")
         self.check(tracks.own(self.ROWS, unit="mm"), unit="mm")
