@@ -494,7 +494,7 @@ export class Panels {
             ...(result.never_slips === null ? [] : [[T.rows.sticking, result.sticking === null ? "–" : percent(result.sticking)]]),
             ...(wave ? [] : [[T.rows.symmetry, T.symmetries[result.symmetry] || "–"]]),
             ...(Number.isFinite(result.mean_velocity) ? [[T.rows.velocity, `${digits(result.mean_velocity * mm / result.groups.time_unit_s)} mm/s`]] : []),
-            ...(Number.isFinite(result.mean_height) ? [[T.rows.height, `${digits(result.mean_height * mm)} mm`]] : []),
+            ...(Number.isFinite(result.mean_height) && result.scene["plate.shape"] === "none" ? [[T.rows.height, `${digits(result.mean_height * mm)} mm`]] : []),
         );
         this.fill(lab.recording ? rows.filter(([, value]) => value !== "–") : rows);
     }
