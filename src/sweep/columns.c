@@ -161,13 +161,18 @@ static void bind_text(binding *b, const char *text)
     b->code = b->code == SQLITE_OK ? code : b->code;
 }
 
-/* Write a choice by its name. */
+/* The place's name in a list, as a text of its own. */
+static void name_place(const char *names, int place, char *name, size_t size)
+{
+    size_t length;
+    const char *from = fst_name_at(names, place, &length);
+    (void)snprintf(name, size, "%.*s", (int)length, from);
+}
+
+/* Write a choice by its name.  The key may be of a part, or of a bead of a list, which has no place in fst_params. */
 static void name_choice(const char *key, int value, char *name, size_t size)
 {
-    const int param = fst_param_find(key);
-    fst_params params = fst_default_params();
-    memcpy((char *)&params + fst_param_at(param)->offset, &value, sizeof value);
-    (void)fst_params_get(&params, param, name, size);
+    name_place(fst_param_at(fst_param_find(key))->names, value, name, size);
 }
 
 /* Columns other than those of a run on the plate. */
@@ -180,7 +185,6 @@ static void bind_own(binding *b, fst_row_kind kind, const fst_sweep_record *reco
     const fst_bead_column *column;
     for (int i = 0; (column = fst_bead_column_at(kind, i)); ++i) {
         const void *field = (const char *)record + column->offset;
-        size_t length;
         if (!done) {
             bind_null(b);
         } else if (column->kind == FST_BEAD_REAL) {
@@ -190,8 +194,7 @@ static void bind_own(binding *b, fst_row_kind kind, const fst_sweep_record *reco
         } else if (column->kind == FST_BEAD_INT) {
             bind_integer(b, *(const int *)field);
         } else {
-            const char *from = fst_name_at(column->names, *(const int *)field, &length);
-            (void)snprintf(name, sizeof name, "%.*s", (int)length, from);
+            name_place(column->names, *(const int *)field, name, sizeof name);
             bind_text(b, name);
         }
     }

@@ -109,6 +109,19 @@ class Keys(Over):
         for key, sentence in REFUSED.items():
             self.says(sentence, f"{key}=1:2:2")
 
+    def test_choices_of_parts_and_of_beads(self):
+        block = ["magnet.shape=parts", "magnet.parts[0].kind=cuboid", "magnet.parts[0].remanence[0]=1"] + [
+            f"magnet.parts[0].size[{axis}]=20mm" for axis in range(3)]
+        pair = ["beads[0].start.phi=3", "beads[1].start.phi=183"]
+        choices = [row for row in json.loads(self.good("schema", "--json")) if row["kind"] == "choice"]
+        for row in choices:
+            for key, sets in ((row["key"], block), (f"beads[1].{row['key']}", pair)):
+                if row["parts"] if sets is block else row["key"].split(".")[0] in ("bead", "start"):
+                    with self.subTest(key=key):
+                        values = row["names"][:2]
+                        self.assertEqual([found[key] for found in self.table(f"{key}=" + ",".join(values), sets=sets)],
+                                         values)
+
     def check_world(self, key, values):
         """A row says what the key does, or why it can do nothing by itself."""
         if key.split(".")[0] == "wave" or key in ALONE:
