@@ -21,11 +21,20 @@ function save(name, blob) {
     setTimeout(() => URL.revokeObjectURL(address), 10000);
 }
 
-/* The motion since it began to be shown, in units of the laboratory, as `festoon run --csv --units lab` names them. */
-export function motionTable(samples, units) {
-    const heads = ["t [s]", "turns", "x [mm]", "y [mm]", "r [mm]", "Phi [deg]", "nx", "ny", "nz", units.tesla ? "B [mT]" : "B [B0]", "slip_r [mm/s]", "slip_alpha [mm/s]", "load [weights]", "sticks"];
-    const lines = samples.map((row) => [row[COLUMN.time], row[COLUMN.turns], row[COLUMN.x] * units.mm, row[COLUMN.y] * units.mm, row[COLUMN.r] * units.mm, row[COLUMN.phi] * DEGREES,
-        row[COLUMN.n], row[COLUMN.n + 1], row[COLUMN.n + 2], row[COLUMN.field] * units.field, row[COLUMN.slip] * units.speed, row[COLUMN.slip + 1] * units.speed, row[COLUMN.load], row[COLUMN.sticks]].join());
+/* What a table of a motion has of each bead: a column's name, its unit, how it is read off a row. */
+const seen = (s, recorded) => [["x", "mm", (row) => row[COLUMN.x] * s.mm], ["y", "mm", (row) => row[COLUMN.y] * s.mm], ...(recorded ? [["z", "mm", (row) => row[COLUMN.z] * s.mm]] : []),
+    ["r", "mm", (row) => row[COLUMN.r] * s.mm], ["Phi", "deg", (row) => row[COLUMN.phi] * DEGREES], ...["nx", "ny", "nz"].map((name, k) => [name, "", (row) => row[COLUMN.n + k]]),
+    ["B", s.tesla ? "mT" : "B0", (row) => row[COLUMN.field] * s.field],
+    ...(recorded ? [] : ["slip_r", "slip_alpha"].map((name, k) => [name, "mm/s", (row) => row[COLUMN.slip + k] * s.speed])),
+    ["load", "weights", (row) => row[COLUMN.load]], ...(recorded ? [] : [["sticks", "", (row) => row[COLUMN.sticks]]])];
+
+/* The motion of each bead since it began to be shown, as `festoon run --csv --units lab` names it.  Of a recorded one,
+ * which is of several beads or in a world, heights are told too; what its samples do not have, slip and sticking, is not. */
+export function motionTable(trails, units, recorded) {
+    const columns = seen(units, recorded), named = (name, i) => (trails.length > 1 ? `${name}_${i}` : name);
+    const heads = ["t [s]", "turns", ...trails.flatMap((_, i) => columns.map(([name, unit]) => named(name, i) + (unit && ` [${unit}]`)))];
+    const lines = trails[0].samples.map((row, at) => [row[COLUMN.time], row[COLUMN.turns],
+        ...trails.flatMap(({ samples }) => columns.map(([, , read]) => read(samples[at])))].join());
     return `${heads.join()}\n${lines.join("\n")}\n`;
 }
 
@@ -43,7 +52,7 @@ export class Files {
             return button;
         };
         box.replaceChildren();
-        add("save-csv", T.saveCsv, () => save("festoon-motion.csv", new Blob([motionTable(lab.trail.samples, lab.units)], { type: "text/csv" })));
+        add("save-csv", T.saveCsv, () => save("festoon-motion.csv", new Blob([motionTable(lab.trails, lab.units, Boolean(lab.recording))], { type: "text/csv" })));
         add("save-png", T.savePng, () => lab.view.canvas.toBlob((blob) => blob && save("festoon.png", blob)));
         if (window.MediaRecorder && HTMLCanvasElement.prototype.captureStream)
             this.film = add("save-film", this.recorder ? T.stopFilm : T.saveFilm, () => this.record());

@@ -9,6 +9,7 @@ import { join } from "node:path";
 import { Camera } from "../src/camera.js";
 import { isBeyond, SHOWN, sentence } from "../src/controls.js";
 import { COLUMN, COLUMNS, Core } from "../src/core.js";
+import { motionTable } from "../src/files.js";
 import { bodiesOf, hullOf, magnetisation } from "../src/magnet.js";
 import { factorTold, Pace } from "../src/pace.js";
 import { ticks } from "../src/plots.js";
@@ -314,6 +315,19 @@ const scripts = {
             "beads[1].start.phi": "40 deg", "beads[1].bead.radius": "2 mm", "start.spin": "rest",
         });
         assert.throws(() => readScene("beads:\n  - {start.phi 3}\n"), /line 2/);
+    },
+    "a saved motion has each bead, and the height of what is recorded"() {
+        const units = { mm: 20, field: 5, speed: 300, tesla: true }, row = (bead) => Array.from({ length: COLUMNS }, (_, k) => k + 1 + 100 * bead);
+        const table = (beads, recorded) => motionTable(Array.from({ length: beads }, (_, i) => ({ samples: [row(i), row(i)] })), units, recorded).trim().split("\n").map((line) => line.split(","));
+        const factors = { x: 20, y: 20, z: 20, r: 20, Phi: 180 / Math.PI, nx: 1, ny: 1, nz: 1, B: 5, slip_r: 300, slip_alpha: 300, load: 1, sticks: 1 };
+        const places = { Phi: COLUMN.phi, nx: COLUMN.n, ny: COLUMN.n + 1, nz: COLUMN.n + 2, B: COLUMN.field, slip_r: COLUMN.slip, slip_alpha: COLUMN.slip + 1 };
+        for (const [beads, recorded, without] of [[1, false, ["z"]], [1, true, ["slip_r", "slip_alpha", "sticks"]], [3, true, ["slip_r", "slip_alpha", "sticks"]]]) {
+            const [heads, first, second] = table(beads, recorded), names = Object.keys(factors).filter((name) => !without.includes(name));
+            const all = Array.from({ length: beads }, (_, i) => names.map((name) => [name, i])).flat();
+            assert.deepEqual(heads.map((head) => head.split(" ")[0]), ["t", "turns", ...all.map(([name, i]) => (beads > 1 ? `${name}_${i}` : name))]);
+            assert.deepEqual(first.slice(2).map(Number), all.map(([name, i]) => factors[name] * row(i)[places[name] ?? COLUMN[name]]));
+            assert.deepEqual(second, first);
+        }
     },
     "a recording goes on from sample to sample, and between them by straight lines and the short turn"() {
         const sample = (time, x, turn) => {
