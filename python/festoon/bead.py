@@ -782,7 +782,7 @@ class Bead(Parameters):
         Returns
         -------
         tuple of numpy.ndarray
-            B of the shape (..., 3) and G of the shape (..., 3, 3), in B0 and B0/l, or T and T/m.
+            B of the shape (..., 3) and G of the shape (..., 3, 3), in B0 and B0/l, or T and T/m; NaN in a part of the magnet.
 
         Raises
         ------

@@ -177,10 +177,11 @@ static const char *why_unknown(const fst_model *model, const double at[2])
 }
 
 /* There is no field to tell in or on a part of the magnet. */
-static fst_status check_outside(const fst_params *params, const double at[2], double height, fst_error *error)
+static fst_status check_outside(const fst_params *params, const fst_model *model, const double at[2],
+                                fst_error *error)
 {
-    const double l = params->magnet_half_length, place[3] = {l * at[0], l * at[1], l * height};
-    const int part = params->magnet_shape == FST_MAGNET_PARTS ? fst_part_touched(params, place, 0.0) : -1;
+    const double mm = 1e3 * params->magnet_half_length, height = fst_field_height(model, at[0], at[1]);
+    const int part = fst_field_inside(model, at[0], at[1]);
     if (part < 0)
         return FST_OK;
     char key[48], kind[32];
@@ -190,7 +191,7 @@ static fst_status check_outside(const fst_params *params, const double at[2], do
         error, FST_BAD_INPUT, "--at",
         "the place %g mm, %g mm at the height %g mm lies in or on magnet.parts[%d], a %s: the field is known "
         "outside of the magnet",
-        1e3 * place[0], 1e3 * place[1], 1e3 * place[2], part, kind);
+        mm * at[0], mm * at[1], mm * height, part, kind);
 }
 
 static fst_status print_point(const arguments *given, const fst_params *params, double h, fst_shown_units units,
@@ -215,8 +216,8 @@ static fst_status print_point(const arguments *given, const fst_params *params, 
         status = fail(error, FST_BAD_INPUT, "--time", "\"%.40s\" must be a time, as in 0.2 or 20ms", time);
     if (status == FST_OK && time)
         status = fst_field_model_at(model, seconds * params->friction_gamma, error);
-    if (status == FST_OK && !time)
-        status = check_outside(params, at, fst_field_height(model, at[0], at[1]), error);
+    if (status == FST_OK)
+        status = check_outside(params, model, at, error);
     if (status == FST_OK && !is_known(model, at))
         status = fail(error, FST_BAD_INPUT, "--at", "%g,%g lies %s", at[0], at[1], why_unknown(model, at));
     if (status == FST_OK && option_value(given, "json"))

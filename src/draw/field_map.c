@@ -61,18 +61,10 @@ static int is_of_bead(const survey *s)
     return s->quantity == FST_FIELD_FORCE || s->quantity == FST_FIELD_LOAD;
 }
 
-static int is_inside(const survey *s, double x, double y)
-{
-    const double l = s->groups.length_unit, place[3] = {l * x, l * y, l * fst_field_height(s->model, x, y)};
-    return s->params->magnet_shape == FST_MAGNET_PARTS && fst_part_touched(s->params, place, 0.0) >= 0;
-}
-
 /* The quantity at a place, in the picture's unit; NAN in a part of the magnet. */
 static double value_at(const survey *s, double x, double y)
 {
     double b[3], gradient[3][3], force[3], load;
-    if (is_inside(s, x, y))
-        return NAN;
     switch (s->quantity) {
     case FST_FIELD_STRENGTH:
         return s->value * strength(s->model, x, y);
@@ -96,7 +88,7 @@ static void arrow_at(const survey *s, double x, double y, double arrow[2])
         fst_field_pull(s->model, x, y, v, &load);
     else
         fst_field(s->model, x, y, v, gradient);
-    const int nothing = is_inside(s, x, y);
+    const int nothing = !isfinite(v[0]);
     arrow[0] = nothing ? 0.0 : v[0];
     arrow[1] = nothing ? 0.0 : v[1];
 }

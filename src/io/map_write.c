@@ -90,6 +90,12 @@ fst_status fst_field_map_write(const char *path, const fst_model *model, double 
             const double height = fst_field_height(model, x, y) * g.length_unit;
             const double place[3] = {i * milli(spacing), j * milli(spacing), milli(height)};
             fst_field(model, x, y, b, grad);
+            if (!isfinite(b[0]) && status == FST_OK)
+                status = fst_fail(error, FST_BAD_INPUT, path,
+                                  "the map's place %g mm, %g mm at the height %g mm lies in or on a part of "
+                                  "the magnet or a wire, where no "
+                                  "field is told: choose another height, or a smaller radius",
+                                  place[0], place[1], place[2]);
             for (int k = 0; k < 3; ++k)
                 write_number(file.stream, place[k], ",");
             for (int k = 0; k < 3; ++k)
@@ -97,7 +103,8 @@ fst_status fst_field_map_write(const char *path, const fst_model *model, double 
             write_errors(file.stream, model, x, y, 1e3 * g.field_unit, g.field_unit / g.length_unit);
             (void)fputc('\n', file.stream);
         }
-        status = fst_tell(progress, (j + most) / (2.0 * most + 1.0), "writing the map", error);
+        if (status == FST_OK)
+            status = fst_tell(progress, (j + most) / (2.0 * most + 1.0), "writing the map", error);
     }
     if (status == FST_OK)
         return fst_whole_file_commit(&file, error);

@@ -99,24 +99,59 @@ double fst_field_height(const fst_model *model, double x, double y)
     return model->world.height + (model->bowl > 0 ? fst_bowl_rise(model->bowl, hypot(x, y)) : 0.0);
 }
 
+/* The part in or on which a place lies, from its coordinates (l) and those on the magnet's axes; -1: none. */
+static int part_around(const fst_model *model, const double place[3], const double own[3])
+{
+    const fst_params *p = &model->params;
+    const int count = p->magnet_shape == FST_MAGNET_PARTS ? p->magnet_part_count : 0;
+    for (int i = 0; i < count; ++i) {
+        const double *of = p->magnet_parts[i].motion == FST_PART_FIXED ? place : own;
+        const double metres[3] = {of[0] * model->groups.length_unit, of[1] * model->groups.length_unit,
+                                  of[2] * model->groups.length_unit};
+        if (fst_part_distance(&p->magnet_parts[i], metres) <= 0.0)
+            return i;
+    }
+    return -1;
+}
+
+/* Where a field is asked for: the place, the same on the magnet's axes, and the time. */
+static double locate(const fst_model *model, double x, double y, double place[3], double own[3])
+{
+    const double time = isnan(model->field_time) ? 0.0 : model->field_time;
+    place[0] = own[0] = x;
+    place[1] = own[1] = y;
+    place[2] = own[2] = fst_field_height(model, x, y);
+    if (model->surroundings)
+        fst_place_on_magnet(model->surroundings, time, place, own);
+    return time;
+}
+
+int fst_field_inside(const fst_model *model, double x, double y)
+{
+    double place[3], own[3];
+    (void)locate(model, x, y, place, own);
+    return part_around(model, place, own);
+}
+
+static void write_unknown(double b[3], double grad[3][3])
+{
+    for (int i = 0; i < 3; ++i)
+        b[i] = grad[i][0] = grad[i][1] = grad[i][2] = NAN;
+}
+
 void fst_field(const fst_model *model, double x, double y, double b[3], double grad[3][3])
 {
-    const double height = fst_field_height(model, x, y),
-                 time = isnan(model->field_time) ? 0.0 : model->field_time;
-    double own[3] = {x, y, height}; /* the place on the magnet's axes */
-    if (model->surroundings)
-        fst_place_on_magnet(model->surroundings, time, (const double[]){x, y, height}, own);
-    if (!is_known(model, own[0], own[1]) || isnan(height)) {
-        for (int i = 0; i < 3; ++i)
-            b[i] = grad[i][0] = grad[i][1] = grad[i][2] = NAN;
+    double place[3], own[3], change[3];
+    const double time = locate(model, x, y, place, own);
+    if (!is_known(model, own[0], own[1]) || isnan(place[2]) || part_around(model, place, own) >= 0) {
+        write_unknown(b, grad);
         return;
     }
     fst_gradient_double g;
-    double change[3];
     if (model->surroundings)
-        fst_surroundings_field(model->surroundings, time, (const double[]){x, y, height}, b, &g, change);
+        fst_surroundings_field(model->surroundings, time, place, b, &g, change);
     else
-        fst_field_double(&model->world, x, y, height, b, &g);
+        fst_field_double(&model->world, x, y, place[2], b, &g);
     write_gradient(&g, grad);
 }
 
@@ -130,7 +165,7 @@ void fst_field_pull(const fst_model *model, double x, double y, double force[3],
     const double pull = g->kappa * (g->eps * g->eps) + 2.0 * (g->a + g->b) * norm;
     for (int j = 0; j < 3; ++j) {
         const double slope = b[0] * grad[0][j] + b[1] * grad[1][j] + b[2] * grad[2][j];
-        force[j] = norm > 0.0 ? pull * slope / norm : 0.0;
+        force[j] = norm > 0.0 ? pull * slope / norm : norm; /* 0, or NAN where no field is told */
     }
     *load = g->gravity - force[2];
 }
@@ -146,8 +181,12 @@ fst_status fst_field_at(const fst_params *params, double time, const double plac
         status = surround(model, error);
     if (status == FST_OK) {
         (void)fst_waveform_enter(&model->surroundings->drive, time);
+        double own[3];
+        fst_place_on_magnet(model->surroundings, time, place, own);
         fst_surroundings_field(model->surroundings, time, place, b, &g, change);
         write_gradient(&g, grad);
+        if (part_around(model, place, own) >= 0)
+            write_unknown(b, grad);
     }
     fst_model_free(model);
     return status;

@@ -145,6 +145,29 @@ class Fields(Case):
         base = json.loads(self.good("field", wave, "--at", "0,0", "--json"))["height"] * 23.0
         self.assertAlmostEqual(high / low, math.exp(-2 * math.pi * (7.5 - base) / 60), delta=1e-12)
 
+    def test_no_field_is_told_within_a_part(self):
+        """Of a block 20 mm square that turns, and of one that stands still beside it, however it is asked."""
+        scene = self.path("blocks.yaml")
+        with open(scene, "w", encoding="utf-8") as out:
+            out.write("drive: {frequency: 10 Hz}\nmagnet:\n  shape: parts\n  depth: 10 mm\n  parts:\n"
+                      "    - {kind: cuboid, centre: [0 mm, 0 mm, 0 mm], size: [20 mm, 20 mm, 10 mm], remanence: [1 T, 0 T, 0 T]}\n"
+                      "    - {kind: cuboid, centre: [30 mm, 0 mm, 0 mm], size: [20 mm, 20 mm, 10 mm],"
+                      " remanence: [0 T, 0 T, 1 T], motion: fixed}\n")
+        for x, y, milliseconds, part in ((0, 0, 0, 0), (13, 0, 0, None), (13, 0, 12.5, 0), (9, 9, 0, 0), (9, 9, 12.5, None),
+                                         (35, 5, 0, 1), (35, 5, 25, 1), (-5, 35, 25, None), (-35, 5, 50, None)):
+            for words in ((), ("--json",), ("--units", "lab")):
+                for time in [("--time", f"{milliseconds}ms")] + [()] * (milliseconds == 0):
+                    call = ("field", scene, "--at", f"{x}mm,{y}mm", "--height", "0mm", *time, *words)
+                    with self.subTest(call=call):
+                        if part is None:
+                            self.good(*call)
+                        else:
+                            self.assertIn(f"lies in or on magnet.parts[{part}], a cuboid", self.refused(*call))
+        table = ("field", scene, "--csv", self.path("t.csv"), "--radius", "8mm", "--spacing", "2mm", "--height")
+        self.assertIn("-8 mm, -8 mm at the height 4 mm lies in or on a part", self.refused(*table, "4mm"))
+        self.assertFalse(os.path.exists(self.path("t.csv")))
+        self.good(*table, "5.1mm")
+
     def test_figures_of_all_fields(self):
         """Also of a field that is the same everywhere, and of none."""
         coils = os.path.join(WORLDS, "coils.yaml")
