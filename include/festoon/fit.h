@@ -128,9 +128,11 @@ typedef struct fst_fit {
     int count;      /* of all parameters */
     int free_count; /* free parameters come first, in the order asked for; given ones follow */
     double correlation[FST_FIT_MOST_KEYS][FST_FIT_MOST_KEYS];
-    double kappa_gamma2, kappa_gamma2_error; /* mu B0/(m R^2), 1/s^2 */
-    double chi2;                             /* with the priors' */
-    int points, dof;                         /* numbers that were fitted; fewer by the free parameters */
+    double kappa_gamma2,
+        kappa_gamma2_error; /* mu B0/(m R^2), 1/s^2; NAN: nothing that is sought enters it, or a part's
+                                                strength is sought, of which B0 is but the unit */
+    double chi2;            /* with the priors' */
+    int points, dof;        /* numbers that were fitted; fewer by the free parameters */
     double error_scale; /* all errors were multiplied by it: 1, or the root of chi2/dof where that is too great
                            for chance */
     double

@@ -77,6 +77,8 @@ def test_fit(program, tmp_path):
     assert abs(fit["gamma"].value - 300) < fit["gamma"].error and fit.dof == 6
     assert fit.correlation.shape == (2, 2) and fit.correlation[0, 0] == 1 and abs(fit.correlation[0, 1]) < 1
     assert fit.bead.kappa == fit["kappa"].value
+    assert 0 < fit.kappa_gamma2_error < 0.01 * fit.kappa_gamma2
+    assert math.isnan(fs.fit(points, free="magnet.depth", bead=truth).kappa_gamma2)
     assert fit.to_dict() == ask(program, "fit", points, "--free", "model.kappa,friction.gamma", "--json")
 
 

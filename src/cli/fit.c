@@ -114,10 +114,11 @@ static void print_parameters(FILE *out, const fst_fit *fit)
             (void)fprintf(out, "; given");
         (void)fprintf(out, "\n");
     }
-    (void)fprintf(out, "  %-22s ", "kappa gamma^2");
+    if (isnan(fit->kappa_gamma2))
+        return;
     const double relative = fit->kappa_gamma2_error / fit->kappa_gamma2;
-    (void)fprintf(out, "%.6g +- %.2g 1/s^2  (%.2g %%)\n", fit->kappa_gamma2, fit->kappa_gamma2_error,
-                  100.0 * relative);
+    (void)fprintf(out, "  %-22s %.6g +- %.2g 1/s^2  (%.2g %%)\n", "kappa gamma^2", fit->kappa_gamma2,
+                  fit->kappa_gamma2_error, 100.0 * relative);
 }
 
 static void print_correlation(FILE *out, const fst_fit *fit)

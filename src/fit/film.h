@@ -46,6 +46,7 @@ typedef struct fit_film {
     double noise;         /* m, of a place ... */
     double slip_scale;    /* ... and by how much the errors of the slip are multiplied, in residuals */
     double drive, sense, turn, phase;
+    int contrary; /* how the bead goes round by its festoons, -1: against the magnet, if the film shows the other; else 0 */
     double complex centre;
     double exposure[2];                 /* and its error; 0: exact */
     double scale_error;                 /* relative, of all lengths of the film; 0: none */

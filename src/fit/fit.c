@@ -150,11 +150,21 @@ static fst_status report_parameters(fit_problem *p, fit_estimate *e, fst_fit *fi
     return FST_OK;
 }
 
-/* kappa gamma^2, by the change of its logarithm along each coordinate. */
+/* Whether a parameter is the strength of a part of the magnet, of which B0 is but the unit. */
+static int is_strength(const fit_key *key)
+{
+    const fst_unit unit = key->info->unit;
+    return strncmp(key->info->key, "magnet.parts[", 13) == 0 &&
+           (unit == FST_UNIT_FIELD || unit == FST_UNIT_MOMENT);
+}
+
+/* kappa gamma^2, by the change of its logarithm along each coordinate: a product of powers, along which it changes much
+ * more than by rounding or not at all.  NAN where nothing changes it, or where it does not say how strong the magnet is. */
 fst_status fit_report_kappa_gamma2(const fit_problem *p, const fit_estimate *e, fst_fit *fit, fst_error *error)
 {
     const double step = 1e-6;
     double slope[FIT_MOST] = {0.0};
+    int moves = 0, blind = 0;
     fst_status status = fit_kappa_gamma2(&fit->params, &fit->kappa_gamma2, error);
     for (int k = 0; k < p->space.count && status == FST_OK; ++k) {
         double u[FIT_MOST], there;
@@ -164,9 +174,13 @@ fst_status fit_report_kappa_gamma2(const fit_problem *p, const fit_estimate *e, 
         (void)fit_space_params(&p->space, u, &moved);
         status = fit_kappa_gamma2(&moved, &there, error);
         slope[k] = log(there / fit->kappa_gamma2) / step;
+        moves |= fabs(slope[k]) > 1e-6;
+        blind |= is_strength(&p->space.keys[k]);
     }
     fit->kappa_gamma2_error =
         fit->kappa_gamma2 * fit->error_scale * fit->widened * sqrt(fit_product(&e->covariance, slope, slope));
+    if (!moves || blind)
+        fit->kappa_gamma2 = fit->kappa_gamma2_error = NAN;
     return status;
 }
 

@@ -29,11 +29,13 @@ static void put_parameters(fst_json *json, const char *key, const fst_fit *fit, 
 static void put_derived(fst_json *json, const fst_fit *fit)
 {
     fst_json_open(json, "derived", '{');
-    fst_json_open(json, "kappa_gamma2", '{');
-    fst_json_real(json, "value", fit->kappa_gamma2);
-    fst_json_real(json, "error", fit->kappa_gamma2_error);
-    fst_json_text(json, "unit", "1/s^2");
-    fst_json_close(json);
+    if (!isnan(fit->kappa_gamma2)) {
+        fst_json_open(json, "kappa_gamma2", '{');
+        fst_json_real(json, "value", fit->kappa_gamma2);
+        fst_json_real(json, "error", fit->kappa_gamma2_error);
+        fst_json_text(json, "unit", "1/s^2");
+        fst_json_close(json);
+    }
     fst_json_close(json);
 }
 

@@ -5,7 +5,8 @@
 #include "fit/errors.h"
 #include "fit/search.h"
 
-/* The own coordinate of parameter i at the minimum; its key, value and error; kappa gamma^2 with its error. */
+/* The own coordinate of parameter i at the minimum; its key, value and error; kappa gamma^2 with its error, NAN where
+ * it was not measured. */
 double fit_own_value(const fit_problem *p, const fit_estimate *e, int i);
 void fit_report_value(const fit_problem *p, const fit_estimate *e, int i, double deviation,
                       fst_fit_parameter *out);

@@ -119,26 +119,55 @@ static double jitter_of(const fit_film *f)
     return middle / (1.1774 * sqrt(70.0)); /* the median of a Rayleigh distribution; the binomials' squares */
 }
 
+/* Where places lie half as far from the path that was found as they do from its middle, or farther, the motion is another
+ * one, of which errors would say nothing: one the other way round is no nearer than a point. */
+static fst_status check_path(const fit_film *f, const double *r, fst_error *error)
+{
+    double off = 0.0, size = 0.0;
+    for (int i = 0; i < f->used; ++i)
+        if (f->weight[i] > 0.0) {
+            off += pow(f->noise * hypot(r[2 * i], r[2 * i + 1]), 2.0);
+            size += pow(cabs(f->z[i]), 2.0);
+        }
+    if (off < 0.25 * size)
+        return FST_OK;
+    return fst_fail(
+        error, FST_NO_CONVERGENCE, "fst_fit",
+        "the model has no path like the film's: the nearest that was found is %.2g times as far from the "
+        "places as the middle of the film is. Look at the drive, the frames a second and the scale, or begin "
+        "with other values in the scene",
+        sqrt(off / size));
+}
+
+/* The same where it is known why: the bead goes round another way than its festoons tell. */
+static fst_status blame_sense(const fit_film *f, fst_error *error)
+{
+    return fst_fail(
+        error, FST_BAD_INPUT, "fst_fit_options.drive",
+        "the model has no path like the film's, and the festoons say that the bead goes round %s the magnet, "
+        "which contradicts the sense in the film: it is mirrored, or the drive has the other sign; try %.6g Hz",
+        f->contrary < 0 ? "against" : "with", -f->sense * f->drive);
+}
+
 /* Windows that grow, from the unknowns v; *left: by how much places then lie off the path, in units of the noise. */
 static fst_status grow(fit_film *f, const double *windows, double *v, double *left, fst_error *error)
 {
     const double whole = f->t[f->frames - 1] - f->t[0];
     double squares = 0.0;
-    fst_status status = FST_OK;
+    f->used = f->frames;
+    double *r = calloc((size_t)fit_film_residual_count(f), sizeof *r);
+    fst_status status = r ? FST_OK : fst_fail(error, FST_NO_MEMORY, "fst_fit", "out of memory");
     for (int w = 0; w < WINDOWS && status == FST_OK; ++w) {
         for (f->used = 0; f->used < f->frames && f->t[f->used] - f->t[0] <= windows[w] * whole;)
             f->used += 1;
         if (w == 0)
             status = find_phases(f, error);
         if (status == FST_OK)
-            status = fit_film_solve(f, v, NULL, error);
+            status = fit_film_solve(f, v, r, error);
+        if (status == FST_OK && f->contrary != 0) /* then it will hardly become nearer */
+            status = check_path(f, r, error);
     }
-    double *r = calloc((size_t)fit_film_residual_count(f), sizeof *r);
-    if (!r)
-        return fst_fail(error, FST_NO_MEMORY, "fst_fit", "out of memory");
-    if (status == FST_OK)
-        status = fit_film_residuals(f, v, r, error);
-    for (int i = 0; i < 2 * f->used; ++i)
+    for (int i = 0; i < 2 * f->used && r; ++i)
         squares += r[i] * r[i];
     *left = sqrt(squares / (2.0 * f->used));
     free(r);
@@ -187,9 +216,11 @@ static fst_status search(fit_film *f, double *v, int *rejected, fst_error *error
         status = fit_film_residuals(f, v, r, error);
     *rejected = status == FST_OK ? reject_frames(f, r) : 0;
     if (status == FST_OK && *rejected > 0)
-        status = fit_film_solve(f, v, NULL, error);
+        status = fit_film_solve(f, v, r, error);
+    if (status == FST_OK)
+        status = check_path(f, r, error);
     free(r);
-    return status;
+    return status == FST_NO_CONVERGENCE && f->contrary != 0 ? blame_sense(f, error) : status;
 }
 
 /* ------------------------------------------------------------------ the report */
@@ -318,6 +349,8 @@ static fst_status begin(fit_film *f, const fst_params *params, const fst_measure
         return status;
     f->drive = fabs(drive);
     f->sense = drive < 0 ? -1.0 : 1.0;
+    if (seen->bead_frequency_hz * seen->filmed_sense * f->sense < 0.0)
+        f->contrary = seen->bead_frequency_hz < 0.0 ? -1 : 1;
     f->exposure[0] = isfinite(options->exposure) ? options->exposure : 0.0;
     f->exposure[1] = options->exposure_error;
     for (int k = 0; k < FIT_NUISANCES; ++k) {

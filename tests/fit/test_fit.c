@@ -94,6 +94,65 @@ static void test_errors_cover(void **state)
     free(exact.rows);
 }
 
+/* kappa gamma^2 is told where something that is sought enters it, with the error that follows from that: twice gamma's where
+ * kappa is held.  Beside a real magnet B0 is but the unit, so a part's strength says nothing of it. */
+static void test_kappa_gamma2_is_told_where_it_is_measured(void **state)
+{
+    (void)state;
+    static const struct {
+        int real, count;
+        const char *keys[2];
+        double power; /* with which the first key enters; 0: it is not told */
+        const char *given;
+    } rows[] = {{0, 1, {"model.kappa"}, 1.0, NULL},
+                {0, 1, {"friction.gamma"}, 2.0, NULL},
+                {0, 1, {"magnet.depth"}, 0.0, NULL},
+                {0, 2, {"magnet.depth", "bead.radius"}, 0.0, NULL},
+                {1, 1, {"bead.remanence"}, 1.0, NULL},
+                {1, 1, {"bead.density"}, -1.0, NULL},
+                {1, 1, {"bead.radius"}, -2.0, NULL},
+                {1, 1, {"friction.gamma"}, 0.0, NULL},
+                {1, 1, {"magnet.depth"}, 0.0, NULL},
+                {1, 2, {"magnet.parts[0].remanence[0]", "friction.gamma"}, 0.0, NULL},
+                {1, 1, {"magnet.parts[0].remanence[0]"}, 0.0, "bead.remanence=1.2+-0.01 T"}};
+    fst_params setups[2] = {truth(), fst_default_params()};
+    static const struct {
+        const char *key, *value;
+    } real[] = {{"magnet.shape", "parts"},
+                {"magnet.parts[0].kind", "cuboid"},
+                {"magnet.parts[0].size[0]", "44 mm"},
+                {"magnet.parts[0].size[1]", "20 mm"},
+                {"magnet.parts[0].size[2]", "8 mm"},
+                {"magnet.parts[0].remanence[0]", "0.5 T"},
+                {"magnet.depth", "14 mm"},
+                {"bead.radius", "2 mm"},
+                {"friction.gamma", "280"},
+                {"bead.density", "7.5 g/cm^3"},
+                {"bead.remanence", "1.2 T"}};
+    for (size_t i = 0; i < sizeof real / sizeof *real; ++i)
+        assert_int_equal(fst_params_set(&setups[1], real[i].key, real[i].value, NULL), FST_OK);
+    fst_points points[2];
+    for (int k = 0; k < 2; ++k)
+        assert_true(fit_table(&setups[k], 11.0, 14.0, 2, &points[k]));
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
+        fst_fit fit;
+        fst_error error = {0};
+        fst_fit_options options = wishes(rows[i].keys, rows[i].count);
+        options.given = &rows[i].given;
+        options.given_count = rows[i].given != NULL;
+        if (fst_fit_points(&setups[rows[i].real], &points[rows[i].real], &options, &fit, &error) != FST_OK)
+            fail_msg("%s: %s: %s", rows[i].keys[0], error.where, error.sentence);
+        const double expected = fabs(rows[i].power) * fit.parameters[0].error / fit.parameters[0].value;
+        if (rows[i].power == 0.0)
+            assert_true(isnan(fit.kappa_gamma2) && isnan(fit.kappa_gamma2_error));
+        else
+            assert_true(fabs(fit.kappa_gamma2_error / fit.kappa_gamma2 / expected - 1.0) < 1e-3);
+        fst_fit_free(&fit);
+    }
+    for (int k = 0; k < 2; ++k)
+        free(points[k].rows);
+}
+
 /* The least chi^2 where gamma is held. */
 static double held(const fst_points *points, double gamma)
 {
@@ -343,6 +402,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_exact_numbers_give_their_parameters),
         cmocka_unit_test(test_errors_cover),
+        cmocka_unit_test(test_kappa_gamma2_is_told_where_it_is_measured),
         cmocka_unit_test(test_no_parabola),
         cmocka_unit_test(test_wild_number_is_named_and_does_not_drag),
         cmocka_unit_test(test_signs),

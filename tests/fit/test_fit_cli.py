@@ -97,6 +97,9 @@ class Fit(unittest.TestCase):
         self.assertAlmostEqual(strength["value"] / (1.7 * 290 * 290), 1, 4)
         self.assertGreater(strength["error"], 0)
         self.assertEqual(fit["correlation"][0][1], fit["correlation"][1][0])
+        words = ["fit", self.table, "--free", "magnet.depth", "--set", "model.kappa=1.7"]
+        self.assertEqual(json.loads(festoon(*words, "--json")[1])["derived"], {})
+        self.assertNotIn("gamma^2", festoon(*words)[1])
         self.assertEqual((fit["points"], fit["dof"], fit["outliers"]), (12, 10, []))
         self.assertIn("friction.gamma", fit["weakest"])
 
