@@ -2,6 +2,8 @@
 
 PREFIX ?= /usr/local
 JOBS ?= $(shell nproc)
+# One test more than processors, because some wait for other programs or for an event.
+TESTS = $(shell expr $(JOBS) + 1)
 PACKAGES = tools/install-packages.sh
 C_FILES = $(shell find src paper include tests bench docs examples tools lab -name node_modules -prune -o \( -name '*.[ch]' -o -name '*.inl' -o -name '*.cpp' \) -print)
 
@@ -30,14 +32,14 @@ test: ## build and run the tests, but the long ones
 	@$(PACKAGES) test
 	@cmake --preset release --log-level=WARNING -DFESTOON_TESTS=ON
 	@cmake --build build -j $(JOBS)
-	@ctest --preset release -j $(JOBS)
+	@ctest --preset release -j $(TESTS)
 
 test-long: ## run the long tests
 	@$(PACKAGES) test-long
 	@$(MAKE) --no-print-directory lab
 	@cmake --preset release --log-level=WARNING -DFESTOON_TESTS=ON
 	@cmake --build build -j $(JOBS)
-	@ctest --preset release-long -j $(JOBS)
+	@ctest --preset release-long -j $(TESTS)
 
 mutants: ## put faults into the code, one at a time, and count which ones the tests notice (hours)
 	@$(PACKAGES) test

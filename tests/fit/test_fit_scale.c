@@ -26,12 +26,12 @@ static void pulls(const fst_fit *fit, double out[2])
     out[1] = (fit->parameters[1].value - right.friction_gamma) / fit->parameters[1].error;
 }
 
-/* Of 24 tables about 68 % are within one error.  Taken for right, the scale would make them wrong by
+/* Of 16 tables about 68 % are within one error.  Taken for right, the scale would make them wrong by
  * more. */
 static void tables(void **state)
 {
     (void)state;
-    enum { TABLES = 24, COMPARED = 4 };
+    enum { TABLES = 16, COMPARED = 4 };
     const fst_params right = truth();
     fst_points exact, points;
     uint64_t seed = 5;

@@ -1,6 +1,6 @@
 /* How a bead turns, on rotations, cameras and faces that are known exactly: rotation vectors there and back, a camera from
  * the plane that it sees, the axis of painted marks, W and slip with their errors, and faces with a highlight, a lamp
- * from the side and noise, of which the rotations come back.
+ * from the side and noise, of which the rotations come back.  A bead without marks: test_turning_long.py.
  * labels: slow numbers
  * tests: follow/patch.c follow/view.c follow/sphere.c follow/pose.c follow/light.c follow/turning.c follow/spin.c
  * follow/rhythm.c base/turn.h */
@@ -580,20 +580,6 @@ static void faces_in_rhythm(void **state)
     follow_turning_end(&t);
 }
 
-/* A bead without marks has no turning. */
-static void no_marks(void **state)
-{
-    (void)state;
-    follow_turning t;
-    double explained;
-    fst_error error;
-    begin(&t, ONCE);
-    paint_faces(&t, 0.0, 1);
-    assert_int_equal(follow_turning_find(&t, NULL, &explained, &error), FST_OK);
-    assert_true(explained == 0.0);
-    follow_turning_end(&t);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -601,7 +587,7 @@ int main(void)
         cmocka_unit_test(axes_of_marks),    cmocka_unit_test(spins),
         cmocka_unit_test(few_marks),        cmocka_unit_test(shutters),
         cmocka_unit_test(lines_of_sight),   cmocka_unit_test(faces),
-        cmocka_unit_test(faces_in_rhythm),  cmocka_unit_test(no_marks),
+        cmocka_unit_test(faces_in_rhythm),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

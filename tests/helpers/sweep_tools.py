@@ -28,15 +28,18 @@ def content_of(path, mode="rb"):
         return file.read()
 
 
-def change(path, *statements, known=True):
+RESEAL = os.path.join(os.environ["BUILD_DIR"], "tests", "reseal")
+
+
+def change(path, *statements, known=True, reseal=RESEAL):
     """Changes a sweep's database by SQL, and gives it the checksums that fit its new contents; `known`: whether its
-    scene is still one that this program reads."""
+    scene is still one that this program reads, and that `reseal` was built with."""
     base = sqlite3.connect(path)
     for statement in statements:
         base.execute(*statement) if isinstance(statement, tuple) else base.execute(statement)
     base.commit()
     base.close()
-    done = subprocess.run([os.path.join(os.environ["BUILD_DIR"], "tests", "reseal"), path])
+    done = subprocess.run([reseal, path])
     assert done.returncode == (0 if known else 3), done
 
 

@@ -2,7 +2,7 @@
 
 Skipped where clang has no libFuzzer.  Environment: FESTOON_FUZZ_COUNT: how many inputs in all.
 
-labels: long"""
+labels: long slow"""
 
 import os
 import subprocess

@@ -2,7 +2,7 @@
 
 Status 77 where Debian's tools for packages are missing.
 
-labels: long"""
+labels: long slow"""
 
 import importlib.util
 import json

@@ -1,7 +1,13 @@
-"""A row more in every list of include/festoon/lists.def, and nothing else: festoon then compiles without a warning, and
-the row is in help, JSON, files that are read back, figures and the Python module.
+"""One build of festoon with more than it has.
 
-labels: long"""
+It is made by the commands in examples/c/field.c and law.c, as a user types them, but by Ninja, and with
+warnings as errors; and not optimised, which takes a fifth of the time and computes the same bits.  The examples print what test_examples_c.py
+compares, and the program knows their magnet and friction law.
+
+Every list of include/festoon/lists.def has a row more there, and nothing else: festoon compiles without a warning, and the
+row is in help, JSON, files that are read back, figures and the Python module.
+
+labels: long slow"""
 
 import json
 import os
@@ -16,6 +22,8 @@ from sweep_tools import change
 
 SOURCES = Path(os.environ["SOURCE_DIR"]).resolve()
 HEADERS = SOURCES / "include" / "festoon"
+PROGRAMS = Path(os.environ["BUILD_DIR"]) / "tests" / "examples"
+EXAMPLES = ("field", "law")
 
 # Where the rows of each list show: a choice of a parameter, options of a command ("COMMAND OPTION"), or names that Python
 # has.  A list that is missing here has no test.
@@ -50,22 +58,39 @@ def with_dummies(text):
     return text, names
 
 
-class Lists(unittest.TestCase):
+def link_to(source, folder, inner):
+    """The source tree, where the user stands, as links in a folder; but folders of its own down to `inner`."""
+    folder.mkdir(exist_ok=True)
+    for part in source.iterdir():
+        if part.name in EXAMPLES or part.name.startswith("build"):
+            continue
+        if inner.is_relative_to(folder / part.name):
+            link_to(part, folder / part.name, inner)
+        else:
+            (folder / part.name).symlink_to(part)
+
+
+def commands_of(example):
+    """The commands of an example's comment, for a build that is not optimised."""
+    text = (SOURCES / "examples" / "c" / (example + ".c")).read_text(encoding="utf-8")
+    configure, build, compile_, start = re.findall(r"^ \*     (\S.*)$", text, re.M)
+    assert "-DCMAKE_BUILD_TYPE=Release" in configure, configure
+    return configure.replace("Release", "Debug -DFESTOON_WERROR=ON -G Ninja"), build, compile_, start
+
+
+class More(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.holder = tempfile.TemporaryDirectory(prefix="festoon-lists-")
         cls.addClassCleanup(cls.holder.cleanup)
         cls.folder = Path(cls.holder.name)
-        own = cls.folder / "own" / "festoon"
-        own.mkdir(parents=True)
-        shutil.copy(HEADERS / "own.def", own)
+        own = cls.folder / "examples" / "c" / "own" / "festoon"
+        link_to(SOURCES, cls.folder, own)
+        # The folder of own.def comes before the public headers: its lists.def is the one that is found.
         text, cls.names = with_dummies((HEADERS / "lists.def").read_text(encoding="utf-8"))
         (own / "lists.def").write_text(text, encoding="utf-8")
-        build = cls.folder / "build"
-        # The folder of own.def comes before the public headers: its lists.def is the one that is found.
-        cls.command("cmake", "-S", SOURCES, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Debug",
-                    f"-DFESTOON_OWN_PHYSICS={own.parent}", "-DFESTOON_WERROR=ON", "--log-level=WARNING")
-        cls.command("ninja", "-C", build)
+        cls.printed = {example: [cls.command("sh", "-c", command) for command in commands_of(example)][-1] for example in EXAMPLES}
+        build = cls.folder / "build-own"
         cls.festoon, cls.python = build / "festoon", build / "python"
 
     @classmethod
@@ -76,8 +101,19 @@ class Lists(unittest.TestCase):
             raise AssertionError(f"$ {words}\n{done.stdout[-3000:]}{done.stderr[-3000:]}")
         return done.stdout
 
+    def reseal(self):
+        """tests/tools/reseal.c of this build, whose sweeps have parameters that others lack."""
+        self.command("cmake", "--build", "build-own", "--target", "festoon_internal")
+        libraries = self.command("pkg-config", "--libs", "yaml-0.1", "jansson", "sqlite3", "expat").split()
+        self.command("cc", "-std=c11", "-D_POSIX_C_SOURCE=200809L", "-Iexamples/c/own", "-Iinclude", "-Isrc",
+                     "tests/tools/reseal.c", "build-own/libfestoon_internal.a", *libraries, "-lm", "-ldl", "-lpthread",
+                     "-o", "reseal")
+        return self.folder / "reseal"
+
     def branch(self):
-        """A branch of locked states whose kind, special points, ends and symmetries are the dummies."""
+        """A branch of locked states whose kind, special points, ends and symmetries are the dummies; made once."""
+        if (self.folder / "branch.json").exists():
+            return
         self.command(self.festoon, "branch", "--kind", "locked", "--over", "drive.omega=0.05:0.3", "-o", "branch.json")
         document = json.loads((self.folder / "branch.json").read_text(encoding="utf-8"))
         self.assertTrue(document["specials"] and document["ends"])
@@ -86,6 +122,22 @@ class Lists(unittest.TestCase):
         document["ends"][0]["type"] = self.names["ENDS"]
         document["points"][0]["symmetry"] = self.names["SYMMETRIES"]
         (self.folder / "branch.json").write_text(json.dumps(document), encoding="utf-8")
+
+    def test_a_magnet_and_a_law_of_ones_own(self):
+        for example in EXAMPLES:
+            self.assertEqual(self.printed[example], self.command(PROGRAMS / example))
+        words = (self.festoon, "run", "--json", "--set", "drive.frequency=20Hz", "--set")
+        radius = json.loads(self.command(*words, "magnet.shape=charges", "--set", "own.reach=0.9", "--set",
+                                         "own.charge=4.5"))["mean_r"]
+        self.assertIn(f"two charges: counter-rotating, r = {radius:.17g}\n", self.printed["field"])
+        self.assertEqual(json.loads(self.command(*words, "friction.law=quadratic"))["regime"], "counter-rotating")
+        if shutil.which("gnuplot"):
+            self.command(self.festoon, "field", "--set", "magnet.shape=charges", "-o", "charges.svg")
+            for name in ("charges.dat", "charges.gp"):  # where no bar of lines is marked
+                self.assertNotIn("the magnet's lines", (self.folder / name).read_text(encoding="utf-8").replace("''", "'"))
+        refused = subprocess.run([self.festoon, "run", "--set", "magnet.shape=charge"], capture_output=True, text=True, check=False)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("charges", refused.stderr)
 
     def test_each_list_is_tested(self):
         known = {*CHOICES, *OPTIONS, *PYTHON, *NUMBERED}
@@ -124,7 +176,7 @@ class Lists(unittest.TestCase):
         self.command(self.festoon, "sweep", "--over", "drive.omega=0.3:0.4:2", "--over", "start.r=0.9:1:2", "--set",
                      "run.periods=20", "-o", "map.db")
         name = self.names["REGIMES"]
-        change(str(self.folder / "map.db"), ("UPDATE rows SET regime = ?", (name,)))
+        change(str(self.folder / "map.db"), ("UPDATE rows SET regime = ?", (name,)), reseal=self.reseal())
         self.assertEqual(self.command(self.festoon, "export", "map.db", "--csv", "--quantity", "regime").count(name), 4)
         if shutil.which("gnuplot"):
             self.command(self.festoon, "plot", "map.db", "--quantity", "regime", "-o", "map.svg")
