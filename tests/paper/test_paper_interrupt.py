@@ -1,5 +1,5 @@
 """`festoon paper` interrupted at once, within a long piece of work and on a terminal, and sent to places where it
-cannot write. (test_paper_interrupt_long.py interrupts it later and compares what is there with the whole paper.)
+cannot write. (test_paper_reduced_long.py interrupts it later and compares what is there with the whole paper.)
 
 tests: paper/paper.c paper/work.c
 labels: numbers"""

@@ -172,15 +172,14 @@ static void with_the_printed_equations_three_identities_hold(void **unused)
     assert_true(fst_balance_residual(&balances.of[FST_BALANCE_ROLLING]) > 0.1);
 }
 
+/* Of either dynamics; test_paramagnet_long.c has all starts. */
 static void no_paramagnetic_bead_counter_rotates(void **unused)
 {
     (void)unused;
     for (int i = 0; i < 24; i++) {
         fst_search_entry entry;
-        for (int dynamics = 0; dynamics < 2; dynamics++) {
-            assert_int_equal(fst_search_one(i, (fst_dynamics)dynamics, &entry, NULL), FST_OK);
-            assert_int_not_equal(entry.last, FST_FATE_COUNTER);
-        }
+        assert_int_equal(fst_search_one(i, (fst_dynamics)(i % 2), &entry, NULL), FST_OK);
+        assert_int_not_equal(entry.last, FST_FATE_COUNTER);
     }
 }
 
@@ -211,9 +210,7 @@ static void the_least_kappa_is_below_what_a_bisection_finds(void **unused)
     (void)unused;
     static const struct {
         double a, bisected;
-    } cases[] = {{1.4e-3, 0.0110},
-                 {2.6e-3, 0.0175},
-                 {3e-3, 0.039}}; /* in the first case the motions below are irregular */
+    } cases[] = {{1.4e-3, 0.0110}, {3e-3, 0.039}}; /* in the first case the motions below are irregular */
     char *text = page("docs/paper.md");
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         fst_params params = bead(FST_MATERIAL_MIXED, 0.0, cases[i].a, 0.0);
