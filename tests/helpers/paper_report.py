@@ -3,6 +3,7 @@
 import html
 import json
 import math
+import os
 import re
 import shutil
 import subprocess
@@ -253,24 +254,30 @@ class Report:
             self.assertNotRegex(text, r"\.\d*0\b|e[+-]\d", name)
 
     def test_commands_repeat_the_numbers(self):
-        """Each command of paper.json prints the number that stands beside it; the report shows the same."""
+        """Each command of paper.json prints the number that stands beside it; the report shows the same.  With
+        FESTOON_PAPER=reduced, of those that compute one number of the paper as the paper does, every fourth."""
         shown = [html.unescape(text) for text in re.findall(r"<pre>(festoon [^<]*)</pre>", self.report)]
         cases = [(s, prefix, dynamics) for s in self.paper["statements"]
                  for prefix, dynamics in (("", "farago2020"), ("rigid_", "rigid"), ("coulomb_", "coulomb"))
                  if dynamics in s]
         commands = sorted({s[prefix + "command"] for s, prefix, _ in cases})
         self.assertGreater(len(commands), 70)
+        if os.environ.get("FESTOON_PAPER") == "reduced":
+            alone = [command for command in commands if command.startswith("festoon paper --only ")]
+            commands = sorted({*commands} - {*alone} | {*alone[::4]})
         with ThreadPoolExecutor(2) as pool:
             printed = dict(zip(commands, pool.map(repeat, commands)))
         for statement, prefix, dynamics in cases:
             command, reads = statement[prefix + "command"], statement[prefix + "reads"]
+            if not prefix:
+                self.assertIn(f"{command}   # {reads}", shown)
+            if command not in printed:
+                continue
             value = read_off(reads, printed[command])
             if isinstance(value, str) or value is None:
                 self.assertEqual(value, statement[dynamics], (command, reads))
             else:
                 self.close_to(value, statement[dynamics], 1e-12, (command, reads))
-            if not prefix:
-                self.assertIn(f"{command}   # {reads}", shown)
 
     @unittest.skipUnless(shutil.which("chromium"), "there is no chromium")
     def test_nothing_is_wider_than_a_phone(self):
