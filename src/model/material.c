@@ -1,4 +1,5 @@
 /* material.c - whether a bead of these parameters can be made of anything, and which strengths it uses. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -8,6 +9,7 @@
 #include "model/bead_rows.h"
 #include "model/forms.h"
 #include "model/params.h"
+#include "model/worlds.h"
 
 /* From light plastics filled with magnetic powder to tungsten and gold, kg/m^3. */
 static const double LIGHTEST = 1000.0, HEAVIEST = 23000.0;
@@ -127,9 +129,23 @@ static const struct effect {
 };
 enum { EFFECTS = sizeof effects / sizeof *effects };
 
-/* Whether the row takes its key's effect away; `value` is then that of the key `of`. */
-static int strikes(const struct effect *row, const fst_params *params, char value[FST_PARAM_TEXT_SIZE])
+/* Whether the engine of src/beads reads the row's key all the same: restitution under every law, also where beads meet each
+ * other alone, whose dry friction is that at the plate unless contact.pair_mu is given. */
+static int is_read_by_beads(const struct effect *row, const fst_params *params, const fst_params *scene)
 {
+    const int no_plate = strcmp(row->of, "plate.shape") == 0, meet = scene->bead_count > 1;
+    if (strcmp(row->key, "impact.restitution") == 0)
+        return no_plate ? meet : scene->bead_count || fst_key_of_world(params);
+    return no_plate && meet && strcmp(row->key, "friction.mu") == 0 && isnan(scene->contact_pair_mu);
+}
+
+/* Whether the row takes its key's effect in the scene away, of which `params` are those of one bead; `value` is then that
+ * of the key `of`. */
+static int strikes(const struct effect *row, const fst_params *params, const fst_params *scene,
+                   char value[FST_PARAM_TEXT_SIZE])
+{
+    if (is_read_by_beads(row, params, scene))
+        return 0;
     (void)fst_params_get(params, fst_param_find(row->of), value, FST_PARAM_TEXT_SIZE);
     return strcmp(value, row->without) == 0 || fst_name_place(value, row->without) >= 0;
 }
@@ -149,8 +165,6 @@ static int needs_beads(const char *key)
 const char *fst_param_missing_choice(const fst_params *params, const char *key, const char **of)
 {
     char value[FST_PARAM_TEXT_SIZE];
-    if (params->bead_count && strcmp(key, "impact.restitution") == 0)
-        return NULL;
     *of = "bead";
     if (!params->bead_count && needs_beads(key))
         return "several, in a list of beads";
@@ -158,7 +172,7 @@ const char *fst_param_missing_choice(const fst_params *params, const char *key, 
         const size_t length = strlen(effects[i].key);
         *of = effects[i].of;
         if (strncmp(key, effects[i].key, length) == 0 && (key[length] == '\0' || key[length] == '[') &&
-            strikes(&effects[i], params, value))
+            strikes(&effects[i], params, params, value))
             return effects[i].choose;
     }
     return NULL;
@@ -176,14 +190,14 @@ static int is_given(const fst_params *params, const char *key)
     return fst_params_get(params, index, value, sizeof value) && strcmp(value, initial) != 0;
 }
 
-/* Of settled parameters of one bead. */
-static fst_status check_one(const fst_params *params, fst_error *error)
+/* Of settled parameters of one bead of the scene. */
+static fst_status check_one(const fst_params *params, const fst_params *scene, fst_error *error)
 {
     char value[FST_PARAM_TEXT_SIZE];
     const int dry = params->friction_law == FST_FRICTION_COULOMB;
     for (const struct effect *row = effects; row < effects + EFFECTS; ++row)
         if ((row->when == REFUSED || (row->when == REFUSED_IF_DRY && dry)) && is_given(params, row->key) &&
-            strikes(row, params, value))
+            strikes(row, params, scene, value))
             return fst_fail(error, FST_BAD_INPUT, row->key,
                             "%s has no effect %s %s%s%s: choose %s, or leave %s out", row->key,
                             value[0] ? "with" : "without", row->of, value[0] ? " " : "", value, row->choose,
@@ -228,7 +242,7 @@ static fst_status check_beads(const fst_params *params, fst_error *error)
         fst_status status = fst_params_of_bead(params, bead, &alone, error);
         if (status != FST_OK)
             return status;
-        if (check_one(&alone, &why) == FST_OK)
+        if (check_one(&alone, params, &why) == FST_OK)
             continue;
         if (++struck == params->bead_count || bead_gives(params, bead, why.where))
             return fst_fail(error, FST_BAD_INPUT, why.where, "bead %d: %s", bead + 1, why.sentence);
@@ -242,6 +256,6 @@ fst_status fst_params_check_effects(const fst_params *params, fst_error *error)
     params = fst_params_settled(params, &room);
     if (params->bead_count)
         return check_beads(params, error);
-    const fst_status status = check_one(params, error);
+    const fst_status status = check_one(params, params, error);
     return status == FST_OK ? check_alone(params, error) : status;
 }

@@ -80,6 +80,30 @@ class Runs(Beads):
         self.assertIn((0, 1), {(contact["a"], contact["b"]) for contact in run["contacts"]})
         self.assertEqual((run["outcome"], run["reason"]), ("apart", "no two beads stay together for a turn of the magnet"))
 
+    def test_beads_that_float_bounce_off_each_other(self):
+        """Without plate, weight, moments and friction: momentum stays, and of the relative velocity the normal part, at
+        the moment of the impact, comes back times the restitution."""
+        text = ("plate: {shape: none, gravity: 0}\nmagnet: {shape: parts}\nfriction: {law: none}\nworld: {frame: laboratory}\n"
+                "model: {chi: 0}\nfield: {uniform: [0, 0, 1 uT]}\nbead: {density: 7500 kg/m^3, moment: 0.02 A m^2}\n"
+                "impact: {restitution: 0.7}\nbeads:\n")
+        starts = ((2, (0, 0, 0), (0.3, 0.02, 0)), (3, (12, 1, 2), (-0.1, 0, 0.05)))  # mm, m/s
+        for radius, place, velocity in starts:
+            text += (f"  - {{radius: {radius} mm, start: {{position: [{', '.join(f'{x} mm' for x in place)}], n: [0, 0, 1], "
+                     f"velocity: [{', '.join(f'{v} m/s' for v in velocity)}], angular_velocity: [0, 0, 0]}}}}\n")
+        run = json.loads(self.good("run", self.scene(text), "--json", "--set", "run.duration=0.1s", "--set", "run.discard=0"))
+        self.assertEqual((run["counts"]["touch"], run["restitution"]), (1, 0.7))
+        after = [[23e-3 * 312.5 * v for v in bead["final_state"][3:6]] for bead in run["beads"]]
+        apart = [b - a for a, b in zip(starts[0][1], starts[1][1])]
+        before, left = ([b - a for a, b in zip(*pair)] for pair in ([start[2] for start in starts], after))
+        time = 23e-3 * run["events"][0]["time"] / (23e-3 * 312.5)
+        normal = [(x + 1e3 * v * time) / 5 for x, v in zip(apart, before)]
+        self.near(math.hypot(*normal), 1, 1e-8)
+        towards = sum(v * n for v, n in zip(before, normal))
+        self.assertLess(towards, -0.2)
+        for k in range(3):
+            self.near(left[k], before[k] - 1.7 * towards * normal[k], 1e-8)
+            self.near(sum(s[0]**3 * (v[k] - s[2][k]) for s, v in zip(starts, after)), 0, 1e-9)
+
     def test_beads_that_are_all_gone_have_no_means(self):
         words = ("--set", "plate.radius=21mm", "--set", "beads[0].start.r=0.9", "--set", "beads[1].start.r=0.9")
         run = self.run_of(OPPOSITE, *words, turns=40, discard=20)
@@ -239,6 +263,8 @@ class Refused(Beads):
         self.says("list several in beads", "contact: {pair_rate: 300}\n")
         self.says("contact.pair_rate has no effect on one bead", "contact: {pair_rate: 300}\nbeads:\n  - {}\n")
         self.says("list several in beads", "model: {chi: 1e-3}\n")
+        self.says("impact.restitution has no effect with plate.shape none",
+                  "plate: {shape: none}\nimpact: {restitution: 0.5}\nbeads:\n  - {}\n")
         self.says("scene.yaml:2", "beads:\n  - start: {phii: 3}\n")
         self.says("start.phi", "beads:\n  - start: {phii: 3}\n")
         self.says("for one bead", OPPOSITE, "--ramp", "7:20")

@@ -114,7 +114,8 @@ static void refused(void **unused)
     set(&p, "bead.radius", "2.5 mm");
 }
 
-/* What has no effect: pair keys without beads, a bead's own key of another material, a long list with `exact`. */
+/* What has no effect: pair keys without beads, a bead's own key of another material, what one bead without a plate touches
+ * nothing with, a long list with `exact`. */
 static void effects(void **unused)
 {
     (void)unused;
@@ -133,6 +134,17 @@ static void effects(void **unused)
     set(&p, "beads[1].bead.a", "2");
     assert_int_equal(fst_params_check_effects(&p, &error), FST_BAD_INPUT);
     assert_non_null(strstr(error.sentence, "bead 2: bead.a"));
+    fst_params floating = fst_default_params();
+    set(&floating, "plate.shape", "none");
+    set(&floating, "impact.restitution", "0.5");
+    assert_int_equal(fst_params_check_effects(&floating, &error), FST_BAD_INPUT);
+    floating.bead_count = 2; /* which touch each other */
+    set(&floating, "friction.law", "coulomb");
+    set(&floating, "friction.mu", "0.5");
+    assert_int_equal(fst_params_check_effects(&floating, &error), FST_OK);
+    set(&floating, "contact.pair_mu", "0.4");
+    assert_int_equal(fst_params_check_effects(&floating, &error), FST_BAD_INPUT);
+    assert_non_null(strstr(error.sentence, "friction.mu has no effect"));
     fst_bead_params many[9];
     for (int i = 0; i < 9; ++i)
         many[i] = p.beads[0];

@@ -169,6 +169,7 @@ class Keys(Over):
         self.says("choose hertz", "contact.radius=0.1mm,0.2mm", sets=[DRY])
         for key in ("impact.restitution", "friction.mu_static", "friction.stribeck_speed"):
             self.says("choose coulomb", f"{key}=0.5,0.6")
+        self.table("impact.restitution=0.5,0.6", sets=["medium.density=1"])  # a world has impacts under every law
         self.says("choose coulomb or rolling", "friction.rolling_resistance=1e-3,1e-2")
         self.says("choose coulomb", "contact.patch=point,hertz", sets=["contact.radius=1mm"])
         self.says("choose one greater than friction.mu", "friction.stribeck_speed=0.01,0.02", sets=[DRY])
