@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 #: Units of what is not named by its own: of the keys of a run, scaled.
 UNITS = {"mean_r": "l", "mean_alpha_dot": "gamma", "ejected_at": "1/gamma", "centre_rate": "gamma", "axis_rate": "gamma",
-         "force": "l gamma^2", "time": "1/gamma", "speed": "l gamma", "mean_load_weights": "m g",
+         "force": "l gamma^2", "time": "1/gamma", "speed": "l gamma", "mean_load_weights": "m g", "mean_height": "l",
          **{f"final_{name}": unit for name, unit in NUMBERS.items()}}
 FRAMES = ("beads", "groups", "contacts", "events", "powers")
 
@@ -68,8 +68,8 @@ class BeadsRun(Shown, _Ran):
 
     @property
     def beads(self) -> List[Dict[str, Any]]:
-        """Of each bead regime, mean_r [l], mean_alpha_dot [gamma], mean_load_weights [1], ejected_at [1/gamma], and the
-        twelve numbers of its final_state."""
+        """Of each bead regime, mean_r [l], mean_alpha_dot [gamma], mean_load_weights [1], mean_height [l], ejected_at [1/gamma],
+        and the twelve numbers of its final_state."""
         return [{**bead, "final_state": lent(np.array(bead["final_state"]))} for bead in self._filled("beads")]
 
     @property
@@ -209,7 +209,7 @@ class WorldRun(Shown, _Ran):
         told["symmetry"] = self._told["symmetry"] or ""
         values = {**told, **numbers_of(np.array(self._told["final_state"]), before="final_")}
         known = {name: RESULTS[name][0] if name in RESULTS else "1" for name in told if not isinstance(told[name], str)}
-        known.update(UNITS, mean_height="l", mean_medium_power="l^2 gamma^3", final_time="1/gamma", end_time="1/gamma", mean_velocity="l gamma", mean_velocity_error="l gamma")
+        known.update(UNITS, mean_medium_power="l^2 gamma^3", final_time="1/gamma", end_time="1/gamma", mean_velocity="l gamma", mean_velocity_error="l gamma")
         return Table((), {}, scaled_columns((), values, known, scales_of(self.bead._params, units)), about(self.bead.scene()))
 
     def __getattr__(self, name: str) -> Any:

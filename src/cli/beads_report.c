@@ -58,7 +58,7 @@ static void print_groups_table(const beads_page *p, const fst_beads_result *resu
 static void print_beads_table(const beads_page *p, const fst_beads_result *result)
 {
     (void)fprintf(p->out, "\n  %-5s %-17s %10s %12s %10s %12s\n", "bead", "regime", "<r> ", "<alpha'> ",
-                  "load ", "height ");
+                  "load ", "<height> ");
     (void)fprintf(p->out, "  %-5s %-17s %10s %12s %10s %12s\n", "", "", p->length_unit, p->rate_unit, "weights",
                   p->length_unit);
     for (int i = 0; i < result->count; ++i) {
@@ -67,7 +67,7 @@ static void print_beads_table(const beads_page *p, const fst_beads_result *resul
         print_cell(p, 10, bead->mean_r * p->length);
         print_cell(p, 12, bead->mean_alpha_dot * p->rate);
         print_cell(p, 10, bead->mean_load_weights);
-        print_cell(p, 12, bead->regime == FST_REGIME_EJECTED ? NAN : bead->final_state[2] * p->length);
+        print_cell(p, 12, bead->mean_height * p->length);
         (void)fprintf(p->out, "\n");
     }
 }

@@ -37,6 +37,7 @@ static void put_beads(page *p, const fst_beads_result *result)
         put(p, "mean_r", bead->mean_r, "l");
         put(p, "mean_alpha_dot", bead->mean_alpha_dot, "gamma");
         fst_json_real(&p->json, "mean_load_weights", bead->mean_load_weights);
+        put(p, "mean_height", bead->mean_height, "l");
         put(p, "ejected_at", bead->ejected_at, "1/gamma");
         fst_json_reals(&p->json, "final_state", bead->final_state, FST_BEAD_NUMBERS);
         if (p->in_si)

@@ -220,6 +220,13 @@ class Trajectories(Beads):
         run = self.run_of(SNAP, "--csv", name, turns=2, discard=1)
         self.assertEqual(run["beads"], without["beads"])
         columns = self.columns(name)
+        text = self.good("run", self.scene(SNAP), "--set", "run.periods=2", "--set", "run.discard=1")
+        for i, bead in enumerate(run["beads"]):  # the table tells the mean, of a bead that is lifted
+            heights = columns[f"Z_{i}"][64:]
+            mean = (sum(heights) - 0.5 * (heights[0] + heights[-1])) / 64
+            self.near(bead["mean_height"], mean, 2e-4 * mean)
+            self.assertIn(f" {23 * bead['mean_height']:.5g}\n", text)
+        self.assertGreater(max(columns["Z_0"]), 0.11)
         self.assertEqual(len(columns["t"]), 2 * 64 + 1)
         self.near(columns["drive_turns"][-1], 2, 1e-12)
         states = ("X", "Y", "Z", "vX", "vY", "vZ", "nX", "nY", "nZ", "WX", "WY", "WZ")
