@@ -1,5 +1,5 @@
 /* figure_beads.c - the paths of several beads over the plate as a chart: each in its colour, the beads at the end to
- * scale with their moments, contacts, and the magnet. */
+ * scale with their moments, contacts, and the magnet; unless the options say, of the last periods to the end. */
 #include "draw/figure_beads.h"
 
 #include "base/constants.h"
@@ -18,12 +18,17 @@ enum {
     SHARED = 32                                     /* beads that share the points of a path */
 };
 
+/* So many periods of the drive are shown, unless the options say. */
+static const double MOST_PERIODS = 40;
+
 /* A chart being made. */
 typedef struct painting {
     const fst_beads_table *table;
     size_t first, last; /* rows shown: first <= row < last */
     int from_magnet, count;
-    double length; /* l in the figure's unit */
+    double length;    /* l in the figure's unit */
+    char when[32];    /* the last row is */
+    char periods[64]; /* what is shown of a trajectory, where that is not all */
     fst_chart *chart;
     fst_chart_curve *curves;
 } painting;
@@ -72,6 +77,44 @@ static int end_curve(painting *p, pen *from, fst_chart_curve curve)
     free(from->spread);
     *from = (pen){.x = NULL};
     return kept != NULL;
+}
+
+static double period_of(const fst_beads_table *table, size_t row)
+{
+    return fst_drive_periods(&table->scene, table->t[row], table->drive_turns[row]);
+}
+
+/* Find the rows that are shown. */
+static fst_status choose_part(const fst_beads_table *table, const fst_figure_options *options,
+                              fst_figure_part *part, fst_error *error)
+{
+    fst_figure_options shown = *options;
+    fst_table whole;
+    if (isnan(shown.to))
+        shown.to = INFINITY;
+    fst_status status = fst_beads_table_alone(table, 0, 0, table->rows, &whole, error);
+    if (status == FST_OK)
+        status = fst_figure_part_of(&whole, &shown, part, error);
+    if (status == FST_OK && isnan(shown.from) && table->scene.drive_waveform == FST_WAVEFORM_STEADY) {
+        shown.from = fmax(period_of(table, part->first), period_of(table, part->last - 1) - MOST_PERIODS);
+        status = fst_figure_part_of(&whole, &shown, part, error);
+    }
+    fst_table_free(&whole);
+    return status;
+}
+
+/* Say which part of the trajectory it is. */
+static void tell_part(painting *p)
+{
+    const char *word = p->table->scene.drive_waveform == FST_WAVEFORM_STEADY ? "turn" : "period";
+    const double from = period_of(p->table, p->first), to = period_of(p->table, p->last - 1),
+                 end = period_of(p->table, p->table->rows - 1);
+    if (p->last < p->table->rows)
+        (void)snprintf(p->when, sizeof p->when, "at %s %.4g", word, to);
+    else
+        (void)snprintf(p->when, sizeof p->when, "at the end");
+    if (p->first > 0 || p->last < p->table->rows)
+        (void)snprintf(p->periods, sizeof p->periods, ", %ss %.4g to %.4g of %.4g", word, from, to, end);
 }
 
 /* Where a bead is seen in a row, in the figure's unit. */
@@ -179,6 +222,7 @@ static int put_beads(painting *p, double *reach)
 {
     const int beads = p->table->count;
     pen arrows = {.x = NULL};
+    char words[80];
     int good = 1;
     for (int first = 0; first < beads && first < FST_BEADS_MOST && good; ++first) {
         pen disc = {.x = NULL}, rim = {.x = NULL};
@@ -200,8 +244,9 @@ static int put_beads(painting *p, double *reach)
         good = end_curve(p, &disc, (fst_chart_curve){.colour = colour, .style = FST_CURVE_BAND}) &
                end_curve(p, &rim, (fst_chart_curve){.colour = colour, .style = FST_CURVE_THIN});
     }
+    (void)snprintf(words, sizeof words, "horizontal parts of the moments %s", p->when);
     return end_curve(p, &arrows,
-                     (fst_chart_curve){.title = "horizontal parts of the moments at the end",
+                     (fst_chart_curve){.title = fst_chart_text(p->chart, words),
                                        .colour = FST_COLOUR_BLACK,
                                        .style = FST_CURVE_THIN}) &&
            good;
@@ -228,11 +273,13 @@ static void mark(const painting *p, size_t row, size_t other, pen *to)
 static int put_contacts(painting *p)
 {
     pen meet = {.x = NULL}, leave = {.x = NULL}, end = {.x = NULL};
+    char words[48];
     for (size_t row = p->first + 1; row < p->last; ++row) {
         mark(p, row, row - 1, &meet);
         mark(p, row - 1, row, &leave);
     }
     mark(p, p->last - 1, p->last - 1, &end);
+    (void)snprintf(words, sizeof words, "contacts %s", p->when);
     const fst_curve_style style = meet.count + leave.count > MANY_MARKS ? FST_CURVE_DOTS : FST_CURVE_SIGNS;
     return end_curve(p, &meet,
                      (fst_chart_curve){.title = "two beads meet",
@@ -245,7 +292,7 @@ static int put_contacts(painting *p)
                                        .style = style,
                                        .sign = style == FST_CURVE_SIGNS ? 1 : 0}) &
            end_curve(p, &end,
-                     (fst_chart_curve){.title = "contacts at the end",
+                     (fst_chart_curve){.title = fst_chart_text(p->chart, words),
                                        .colour = FST_COLOUR_BLACK,
                                        .style = FST_CURVE_POINTS});
 }
@@ -269,7 +316,7 @@ static fst_status choose_square(const painting *p, const double *zoom, double re
             }
         if (zoom[0] > range[1] || zoom[1] < range[0] || zoom[2] > range[3] || zoom[3] < range[2])
             return fst_fail(error, FST_BAD_INPUT, "fst_figure_options.zoom",
-                            "no bead is in the zoom at the end, when they are within %.4g,%.4g,%.4g,%.4g (mm)",
+                            "no bead is in the zoom %s, when they are within %.4g,%.4g,%.4g,%.4g (mm)", p->when,
                             range[0], range[1], range[2], range[3]);
         for (int i = 0; i < 4; ++i)
             box[i] = zoom[i] / millimetres;
@@ -283,14 +330,15 @@ static fst_status choose_square(const painting *p, const double *zoom, double re
 
 static int put_words(painting *p, const fst_figure_options *options, const char *about)
 {
-    char title[96];
+    char title[96], part[512];
     const char *seen = p->from_magnet ? "as seen from the magnet" : "from above";
     if (p->table->count > 1)
         (void)snprintf(title, sizeof title, "Paths of %d beads %s", p->table->count, seen);
     else
         (void)snprintf(title, sizeof title, "Path of the bead %s", seen);
     p->chart->title = fst_chart_text(p->chart, options->title ? options->title : title);
-    p->chart->about = fst_chart_text(p->chart, about);
+    (void)snprintf(part, sizeof part, "%s%s", about, p->periods);
+    p->chart->about = fst_chart_text(p->chart, part);
     p->chart->scene = fst_chart_scene(p->chart, &p->table->scene);
     p->chart->square = 1;
     p->chart->panel_count = 1;
@@ -302,13 +350,9 @@ static int put_words(painting *p, const fst_figure_options *options, const char 
 fst_status fst_chart_of_paths(const fst_beads_table *table, const fst_figure_options *options, fst_chart *chart,
                               fst_error *error)
 {
-    fst_table whole;
     fst_figure_part part;
     double reach = 0.0;
-    fst_status status = fst_beads_table_alone(table, 0, 0, table->rows, &whole, error);
-    if (status == FST_OK)
-        status = fst_figure_part_of(&whole, options, &part, error);
-    fst_table_free(&whole);
+    fst_status status = choose_part(table, options, &part, error);
     if (status != FST_OK)
         return status;
     const fst_scales scales = fst_scales_of(&table->scene);
@@ -321,6 +365,7 @@ fst_status fst_chart_of_paths(const fst_beads_table *table, const fst_figure_opt
                   .chart = chart,
                   .curves = fst_chart_keep(chart, CURVES * sizeof *p.curves)};
     fst_chart_panel *panel = fst_chart_keep(chart, sizeof *panel);
+    tell_part(&p);
     if (p.curves && panel)
         status = put_paths(&p, options, &reach, &panel->left_label, error);
     if (status == FST_OK && !(p.curves && panel && put_beads(&p, &reach) && put_words(&p, options, part.about)))

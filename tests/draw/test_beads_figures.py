@@ -123,6 +123,22 @@ class Beads(unittest.TestCase):
         colours = [script.index(f"lw 2 lc rgb '{code}'") for code in ("#009e73", "#cc79a7", "#999933")]
         self.assertEqual(colours, sorted(colours))
 
+    def test_which_turns_are_shown(self):
+        """The last forty turns, to the end; the figure says which, and where the beads are that are drawn to scale."""
+        script, curves = self.plot("--to", 3)
+        self.assertIn("turns 1 to 3 of 6", script)
+        self.assertIn("horizontal parts of the moments at turn 3", script)
+        self.assertEqual(run("run", "--set", "plate.tilt=2deg", "--set", "run.samples=8", "--set", "run.periods=45", "--set",
+                             "run.discard=2", "-o", self.folder / "tilt.csv")[0], 0)
+        rows = read(self.folder / "tilt.csv")
+        for options, first, words in (((), 5, "5 to 45 of 45"), (("--from", 0), 0, "moments at the end"),
+                                      (("--from", 1), 1, "1 to 45 of 45")):
+            script, curves = self.plot(*options, name="tilt.csv")
+            self.assertIn(words, script)
+            (_, pieces), = curves["bead 1"]
+            for point, row in ((pieces[0][0], rows[8 * first]), (pieces[-1][-1], rows[-1])):
+                self.assertLess(math.dist(point, (23 * row["X_0"], 23 * row["Y_0"])), 1e-3)
+
     def gap(self, row, a, b):
         return math.dist(*[[row[f"{axis}_{i}"] for axis in "XYZ"] for i in (a, b)]) - self.radii[a] - self.radii[b]
 
