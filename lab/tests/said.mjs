@@ -32,7 +32,7 @@ const TELLING = ["study/regime.c", "study/conclude.c", "beads/seen.c", "beads/wo
 const LEFT_OUT = /^(; festoons|; whether the contact slips|stays at the axis$|at %.4g, %.4g l|the axis of %d beads|this computation takes one bead|the distance from the axis of)|out of memory/;
 
 /* Patterns that no single text of C holds, because the library puts their sentences together. */
-const MADE = /^(rangeInteger|noRemanence|noMoment|placeBeyond|chain|chainAtAxis|paradox|paradoxDry|mapTwice|mapCurl|mapCurlLittle|oneBead|onePart|oneSample|cluster|alone|oneApart|manyApart|oneEjected|manyEjected|turnsAxis|rateAxis)$/;
+const MADE = /^(rangeInteger|noRemanence|noMoment|placeBeyond|chain|chainAtAxis|paradox|paradoxDry|mapTwice|mapCurl|mapCurlLittle|oneBead|onePart|oneSample|cluster|alone|oneApart|manyApart|oneEjected|manyEjected|oneGone|manyGone|turnsAxis|rateAxis)$/;
 
 export const scripts = {
     "every sentence in which a run ends has words in each language"() {

@@ -209,10 +209,12 @@ static fst_regime regime_of(const beads_seen *seen, int i, double mean_alpha_dot
     const double omega = seen->world->omega, *bead = seen->y + FST_BEAD_NUMBERS * i;
     const double u = bead[BEADS_V] + omega * bead[1], v = bead[BEADS_V + 1] - omega * bead[0];
     const int held = !isnan(seen->world->plate);
-    int at_magnet;
-    (void)beads_way_out(seen->world, i, seen->y, &at_magnet);
+    int what;
+    (void)beads_way_out(seen->world, i, seen->y, &what);
     if (seen->gone[i])
-        return at_magnet ? FST_REGIME_TOUCHED : held ? FST_REGIME_EJECTED : FST_REGIME_LOST;
+        return what == BEADS_AT_MAGNET         ? FST_REGIME_TOUCHED
+               : held && what == BEADS_AT_EDGE ? FST_REGIME_EJECTED
+                                               : FST_REGIME_LOST;
     if (!held)
         return FST_REGIME_LEVITATING;
     if (seen->world->surrounded && seen->world->around.drive.kind != FST_WAVEFORM_STEADY)
@@ -349,14 +351,18 @@ static int was_ejected(const beads_seen *seen, fst_beads_result *result)
     for (int i = 0; i < result->count; ++i)
         if (seen->gone[i]) {
             result->outcome = FST_BEADS_EJECTED;
-            (void)snprintf(result->reason, sizeof result->reason, "bead %d passed the plate's edge at t = %.6g",
+            const fst_regime regime = result->beads[i].regime;
+            (void)snprintf(result->reason, sizeof result->reason,
+                           regime == FST_REGIME_TOUCHED ? "bead %d touched the magnet at t = %.6g"
+                           : regime == FST_REGIME_LOST  ? "bead %d was lost at t = %.6g"
+                                                        : "bead %d passed the plate's edge at t = %.6g",
                            i + 1, seen->ejected[i]);
             return 1;
         }
     return 0;
 }
 
-/* Whether mean r, without a plate the height in LOAD, or in a wave the velocity, is the same in both halves of the
+/* Whether mean r, without a plate the height, or in a wave the velocity, is the same in both halves of the
  * window. */
 static int has_settled(const beads_seen *seen, const beads_moment at[3], int number, fst_beads_result *result)
 {
@@ -392,7 +398,7 @@ static void decide(const beads_seen *seen, const beads_moment at[3], int same, f
         return;
     }
     if (!has_settled(seen, at, is_in_wave(seen->world) ? X : R, result) ||
-        (isnan(seen->world->plate) && !has_settled(seen, at, LOAD, result)))
+        (isnan(seen->world->plate) && !has_settled(seen, at, HEIGHT, result)))
         return;
     for (int g = 1; g < result->group_count; ++g)
         if (result->groups[g].count > largest->count)

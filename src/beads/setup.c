@@ -119,15 +119,18 @@ static fst_status check_apart(const beads_world *world, const double *state, fst
         state = memcpy(at_start, state, (size_t)(FST_BEAD_NUMBERS * world->count) * sizeof *state);
     for (int i = 0; i < world->count; ++i) {
         const double gap = beads_plate_gap(world, i, state);
-        int at_magnet;
+        int what;
         if (gap < -OVERLAP)
             return fst_fail(error, FST_BAD_INPUT, "start", "bead %d starts %g l below its place on the plate",
                             i + 1, -gap);
-        if (beads_way_out(world, i, state, &at_magnet) <= 0)
+        if (beads_way_out(world, i, state, &what) <= 0)
             return fst_fail(error, FST_BAD_INPUT, "start.position",
-                            at_magnet
+                            what == BEADS_AT_MAGNET
                                 ? "bead %d starts inside the magnet, or touches it: its centre must be farther "
                                   "from it than its radius of %g l"
+                            : what == BEADS_AT_SOURCES
+                                ? "bead %d, of the radius %g l, starts more than a wave.length from where "
+                                  "wave.amplitude is told"
                                 : "bead %d, of the radius %g l, starts beyond plate.radius",
                             i + 1, world->body[i].radius);
         for (int j = i + 1; j < world->count; ++j) {

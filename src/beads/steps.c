@@ -310,8 +310,8 @@ static void eject(beads_steps *s)
 {
     for (int p = 0; p < s->present_count; ++p) {
         const int i = s->present[p];
-        int at_magnet;
-        if (!(beads_way_out(&s->world, i, s->y, &at_magnet) < 0))
+        int unused;
+        if (!(beads_way_out(&s->world, i, s->y, &unused) < 0))
             continue;
         s->carried += beads_energy(&s->world, s->gone, s->y);
         s->gone[i] = 1;

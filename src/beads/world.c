@@ -58,11 +58,22 @@ double beads_plate_gap(const beads_world *world, int i, const double *y)
     return rho - sqrt(x[0] * x[0] + x[1] * x[1] + (x[2] - rho) * (x[2] - rho));
 }
 
-double beads_way_out(const beads_world *world, int i, const double *y, int *at_magnet)
+/* The way to the sources of a wave, one length of it above or, without a plate, below where its amplitude is told. */
+static double way_to_sources(const beads_world *world, double height)
+{
+    const fst_surroundings *s = &world->around;
+    const double rise = height - s->wave_height;
+    if (!world->surrounded || s->drive.kind != FST_WAVEFORM_WAVE || (rise > 0 ? s->backward : s->forward) == 0)
+        return INFINITY;
+    return FST_TWO_PI / s->wave_number - fabs(rise);
+}
+
+double beads_way_out(const beads_world *world, int i, const double *y, int *what)
 {
     const double *bead = y + FST_BEAD_NUMBERS * i, z = isnan(world->plate) ? bead[2] : 0.0;
     const double edge = world->plate_radius - sqrt(bead[0] * bead[0] + bead[1] * bead[1] + z * z);
     const double place[3] = {bead[0], bead[1], beads_height(world, i, y)}, radius = world->body[i].radius;
+    const double sources = way_to_sources(world, place[2]);
     double magnet = INFINITY, own[3] = {place[0], place[1], place[2]};
     if (world->clearance && world->surrounded)
         fst_place_on_magnet(&world->around, beads_time(world, y), place, own);
@@ -70,8 +81,8 @@ double beads_way_out(const beads_world *world, int i, const double *y, int *at_m
         magnet = world->clearance(world->source, own[0], own[1], own[2]) - radius;
     if (world->surrounded) /* beside coils the axes are those of the laboratory, in which they stand */
         magnet = fmin(magnet, fst_distance_to_wire(&world->around, place) - radius);
-    *at_magnet = magnet < edge;
-    return *at_magnet ? magnet : edge;
+    *what = sources < fmin(magnet, edge) ? BEADS_AT_SOURCES : magnet < edge ? BEADS_AT_MAGNET : BEADS_AT_EDGE;
+    return fmin(fmin(magnet, sources), edge);
 }
 
 double beads_kinetic_energy(const beads_world *world, const int *gone, const double *y)

@@ -102,8 +102,12 @@ double beads_model_clearance(const void *model, double x, double y, double z);
 /* The gap between bead i and the plate; INFINITY: there is none. */
 double beads_plate_gap(const beads_world *world, int i, const double *y);
 
-/* The way to where bead i is gone, and whether it is the magnet, or the wire of a coil, that lies there. */
-double beads_way_out(const beads_world *world, int i, const double *y, int *at_magnet);
+/* What lies where a bead is gone: the edge, the magnet or the wire of a coil, or the sources of a wave, of which a wave's
+ * length in their direction is as much as this program believes: its field grows without bound. */
+enum { BEADS_AT_EDGE, BEADS_AT_MAGNET, BEADS_AT_SOURCES };
+
+/* The way to where bead i is gone, and what lies there. */
+double beads_way_out(const beads_world *world, int i, const double *y, int *what);
 
 /* Kinetic energy, and with it that in gravity, in the magnet's field and of the dipoles in each other's; of
  * the beads that are not `gone`. */

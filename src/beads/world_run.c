@@ -83,6 +83,20 @@ static void tell_undecided(const fst_bead_result *bead, const fst_params *params
             bead->mean_alpha_dot / (FST_TWO_PI * g->time_unit));
 }
 
+/* What became of a bead that is gone. */
+static const char *way_gone(fst_regime regime, const fst_params *params)
+{
+    if (regime == FST_REGIME_TOUCHED)
+        return params->coil_count > 0 ? "touched the magnet, or the wire of a coil" : "touched the magnet";
+    if (regime == FST_REGIME_EJECTED)
+        return "passed the plate's edge";
+    if (params->drive_waveform != FST_WAVEFORM_WAVE)
+        return "was farther from the magnet than plate.radius";
+    return params->plate_shape != FST_PLATE_NONE
+               ? "had risen by a wave length, drawn up by the sources of the wave above the plate"
+               : "had come a wave length nearer to sources of the wave, or farther away than plate.radius";
+}
+
 static void give_reason(const fst_beads_result *beads, const fst_params *params, const fst_groups *g,
                         fst_run_result *run)
 {
@@ -94,11 +108,7 @@ static void give_reason(const fst_beads_result *beads, const fst_params *params,
     if (bead->regime == FST_REGIME_EJECTED || bead->regime == FST_REGIME_TOUCHED ||
         bead->regime == FST_REGIME_LOST)
         (void)snprintf(run->reason, room, "after %.4g s the bead %s", bead->ejected_at * seconds,
-                       bead->regime == FST_REGIME_TOUCHED && params->coil_count > 0
-                           ? "touched the magnet, or the wire of a coil"
-                       : bead->regime == FST_REGIME_TOUCHED ? "touched the magnet"
-                       : bead->regime == FST_REGIME_LOST    ? "was farther from the magnet than plate.radius"
-                                                            : "passed the plate's edge");
+                       way_gone(bead->regime, params));
     else if (beads->outcome == FST_BEADS_UNDECIDED) {
         run->regime = FST_REGIME_UNDECIDED;
         (void)snprintf(run->reason, room, "%s", beads->reason);

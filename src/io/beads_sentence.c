@@ -93,10 +93,16 @@ static void tell_motion(const fst_bead_group *group, double omega, char *text, s
             group->centre_rate < 0 ? ", and its centre walks against it" : ", and its centre walks with it");
 }
 
+static int is_gone(const fst_bead_result *bead)
+{
+    return bead->regime == FST_REGIME_EJECTED || bead->regime == FST_REGIME_TOUCHED ||
+           bead->regime == FST_REGIME_LOST;
+}
+
 /* Append what the groups do: first the largest group of touching beads, and last the beads that left the plate. */
 static void tell_groups(const fst_beads_result *result, char *text, size_t size)
 {
-    int apart = 0, gone = 0, told = 0;
+    int apart = 0, gone = 0, ejected = 0, told = 0;
     char word[16], phrase[64];
     for (int count = result->count; count > 1; --count)
         for (int g = 0; g < result->group_count; ++g) {
@@ -107,8 +113,10 @@ static void tell_groups(const fst_beads_result *result, char *text, size_t size)
             tell_name(group, text, size);
             tell_motion(group, result->omega, text, size);
         }
-    for (int i = 0; i < result->count; ++i)
-        gone += result->beads[i].regime == FST_REGIME_EJECTED;
+    for (int i = 0; i < result->count; ++i) {
+        gone += is_gone(&result->beads[i]);
+        ejected += result->beads[i].regime == FST_REGIME_EJECTED;
+    }
     for (int g = 0; g < result->group_count; ++g)
         apart += result->groups[g].count == 1;
     if (apart) {
@@ -117,8 +125,8 @@ static void tell_groups(const fst_beads_result *result, char *text, size_t size)
         add(text, size, phrase);
     }
     if (gone) {
-        (void)snprintf(phrase, sizeof phrase, "%s%s bead%s ejected", told || apart ? ", " : "",
-                       number_word(gone, word), gone == 1 ? "" : "s");
+        (void)snprintf(phrase, sizeof phrase, "%s%s bead%s %s", told || apart ? ", " : "",
+                       number_word(gone, word), gone == 1 ? "" : "s", ejected == gone ? "ejected" : "gone");
         add(text, size, phrase);
     }
 }
@@ -127,7 +135,7 @@ void fst_beads_sentence(const fst_beads_result *result, char *text, size_t size)
 {
     int singles = 1;
     for (int i = 0; i < result->count; ++i)
-        singles &= result->beads[i].regime != FST_REGIME_EJECTED;
+        singles &= !is_gone(&result->beads[i]);
     for (int g = 0; g < result->group_count; ++g)
         singles &= result->groups[g].count == 1;
     text[0] = '\0';

@@ -60,6 +60,37 @@ class Worlds(Case):
         for word in ("means over", "power", "nan"):
             self.assertNotIn(word, text)
 
+    def test_a_wave_that_lifts_a_bead_loses_it(self):
+        """The field from above grows with the height as exp(k z): the bead that it lifts ends a wave length up."""
+        words = (self.scene("wave"), "--set", "wave.ratio=3", "--set", "run.duration=0.5s")
+        run = json.loads(self.good("run", *words, "--json", "--csv", self.path("up.csv")))
+        self.assertEqual((run["regime"], run["mean_r"]), ("lost", None))
+        self.assertIn("had risen by a wave length", run["reason"])
+        self.assertAlmostEqual(run["final_lab_si"][2], 62.5e-3, delta=1e-9)
+        with open(self.path("up.csv"), encoding="utf-8") as file:
+            self.assertGreater(len(file.readlines()), 60)
+        self.good("sweep", *words, "--over", "wave.ratio=0,2", "-o", self.path("up.db"))
+        rows = json.loads(self.good("export", self.path("up.db"), "--json"))
+        self.assertEqual([row["regime"] for row in rows], ["backward", "lost"])
+        self.assertIn("more than a wave.length", self.refused("run", *words, "--set", "start.position[2]=65mm"))
+        with open(self.path("two.yaml"), "w", encoding="utf-8") as scene:
+            scene.write("drive: {waveform: wave, frequency: 2 Hz}\nwave: {length: 60 mm, amplitude: 2 mT, ratio: 3}\nmagnet: {shape: parts}\n"
+                        "bead: {mass: 0.5 g, remanence: 1.2 T}\nplate: {radius: 10 m}\nstart: {spin: rest}\nbeads:\n"
+                        "  - start.position: [0, 0, 2.5 mm]\n  - start.position: [20 mm, 0, 2.5 mm]\nrun: {duration: 0.1 s, discard: 0}\n")
+        two = json.loads(self.good("run", self.path("two.yaml"), "--json"))
+        self.assertEqual(([bead["regime"] for bead in two["beads"]], two["sentence"]), (["lost"] * 2, "two beads gone"))
+        self.assertIn("bead 1 was lost", two["reason"])
+
+    def test_a_height_that_goes_on_has_not_settled(self):
+        words = ("--set", "plate.shape=none", "--set", "plate.gravity=0", "--set", "magnet.shape=parts", "--set", "bead.remanence=1T",
+                 "--set", "field.uniform[2]=1uT", "--set", "start.velocity[2]=0.05m/s", "--set", "start.spin=rest")
+        place = [word for i, n in enumerate((0, 0, 1)) for key in (f"start.position[{i}]=0mm", f"start.n[{i}]={n}", f"start.angular_velocity[{i}]=0")
+                 for word in ("--set", key)]
+        run = json.loads(self.good("run", *words, *place, "--set", "start.velocity[0]=0", "--set", "start.velocity[1]=0", "--json",
+                                   "--set", "run.duration=0.5s", "--set", "run.discard=0"))
+        self.assertEqual(run["regime"], "undecided")
+        self.assertIn("its mean height goes from", run["reason"])
+
     def test_a_bead_that_meets_a_wire_ends_there(self):
         """The field of a wire has no end: a bead that a coil pulls in would take ever shorter steps."""
         path = self.path("coil.yaml")
