@@ -97,10 +97,15 @@ static chaos test_chaos(const fst_watched_run *run, const fst_exponent *known, f
     const int friction = fst_is_braked(run);
     const double growth = exponent * known->duration;
     const double quiet = friction ? QUIET : QUIET_WITHOUT_FRICTION;
-    const chaos found = exponent > SIGNIFICANT * known->chance && growth > GROWTH ? CHAOTIC
-                        : growth > quiet                                          ? UNCLEAR
-                                                                                  : REGULAR;
-    if (found == CHAOTIC && !friction && run->window.periods.offered <= LEAST_PERIODS_WITHOUT_FRICTION) {
+    chaos found = exponent > SIGNIFICANT * known->chance && growth > GROWTH ? CHAOTIC
+                  : growth > quiet                                          ? UNCLEAR
+                                                                            : REGULAR;
+    if (found != REGULAR && result->mean_r == 0.0) {
+        found = UNCLEAR;
+        REASON("the bead stays on the axis, which beads beside it leave: neighbours part by e^%.2g over the "
+               "window, and whether the moment alone moves regularly is not told by them",
+               growth);
+    } else if (found == CHAOTIC && !friction && run->window.periods.offered <= LEAST_PERIODS_WITHOUT_FRICTION) {
         REASON("chaotic over the window (exponent %.4g +- %.2g), but without friction nothing holds the bead: "
                "run longer",
                exponent, standard_error);

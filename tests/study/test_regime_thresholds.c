@@ -25,7 +25,7 @@ typedef struct made_up {
     double r_slow;     /* slow swing of <r>, two cycles in the window */
     double alpha_rise; /* steady rise of <alpha'> over the blocks, for a turning bead */
     double swing[2];   /* delta r in the first block and in the last */
-    int without_friction;
+    int without_friction, on_axis;
     int64_t periods;         /* number of whole drive periods, if it differs from the number of blocks */
     double full_before_last; /* the full distance of the mark before the last, if not 0 */
     double kappa;
@@ -113,6 +113,7 @@ static fst_run_result decide(const made_up *m)
     fst_run_result result;
     memset(&result, 0, sizeof result);
     result.omega = 0.3;
+    result.mean_r = m->on_axis ? 0.0 : 1.0;
     result.mean_alpha_dot = m->alpha_dot;
     result.mean_alpha_dot_error = m->alpha_dot_error;
     assert_true(fst_decide_regime(run, &exponent, &result));
@@ -301,6 +302,11 @@ static void test_significant(void **unused)
     m = LIBRATING;
     m.chance = 10.0;
     EITHER_SIDE(m, growth, 29.5, FST_REGIME_UNDECIDED, "cannot be told", 30.5, FST_REGIME_CHAOTIC, "positive");
+    m.on_axis = 1; /* which neighbours leave, however regular the motion is */
+    m.growth = 100.0;
+    expect(&m, FST_REGIME_UNDECIDED, "the bead stays on the axis");
+    m.growth = -1.0;
+    expect(&m, FST_REGIME_LIBRATING, "Phi stays within");
 }
 
 /* A rise of <r> below 1e-4 is not a drift; a larger one is, if it exceeds 5 standard errors of the scatter. For a

@@ -104,6 +104,7 @@ export default {
         tooShort: "zu kurz: Unter {n} ganzen Umdrehungen des Antriebs nach den nicht gezählten wird nichts entschieden",
         discContact: "ob die Bewegung regelmäßig oder chaotisch ist, lässt sich nicht sagen: Wie sich Nachbarn einer Kugel bewegen, die auf einer Kontaktfläche haftet, weiß dieses Programm nicht",
         chaoticFree: "chaotisch im Zeitfenster (Exponent {n} ± {error}), aber ohne Reibung hält nichts die Kugel: länger rechnen",
+        onAxis: "die Kugel bleibt auf der Achse, die Kugeln daneben verlassen: Nachbarn trennen sich im Zeitfenster um e^{growth}, und ob sich das Moment allein regelmäßig bewegt, sagen sie nicht",
         chaotic: "der größte Ljapunow-Exponent ist im Zeitfenster positiv: {n} ± {error}",
         unclear: "ob die Bewegung regelmäßig oder chaotisch ist, lässt sich noch nicht sagen: Der Ljapunow-Exponent quer zum Fluss ist {n} ± {error}, sodass sich Nachbarn im Zeitfenster um e^{growth} trennten; länger rechnen",
         neitherWay: "Phi dreht sich, aber die Kugel kreist in keiner Richtung: ⟨α′⟩ = {n} ± {error}",

@@ -115,6 +115,7 @@ export default {
         tooShort: "too short: nothing is decided on less than {n} whole drive periods after the discard",
         discContact: "regular or chaotic cannot be told: how neighbours of a bead move that a disc of contact holds, is not known to this program",
         chaoticFree: "chaotic over the window (exponent {n} +- {error}), but without friction nothing holds the bead: run longer",
+        onAxis: "the bead stays on the axis, which beads beside it leave: neighbours part by e^{growth} over the window, and whether the moment alone moves regularly is not told by them",
         chaotic: "the largest Lyapunov exponent is positive over the window: {n} +- {error}",
         unclear: "regular or chaotic cannot be told yet: the Lyapunov exponent across the flow is {n} +- {error}, so that neighbours parted by e^{growth} over the window; run longer",
         neitherWay: "Phi turns, but the bead circles neither way: <alpha'> = {n} +- {error}",

@@ -104,6 +104,7 @@ export default {
         tooShort: "demasiado corto: nada se decide con menos de {n} periodos enteros del accionamiento tras los que no cuentan",
         discContact: "no se puede decir si es regular o caótico: este programa no sabe cómo se mueven los vecinos de una bola que sujeta un disco de contacto",
         chaoticFree: "caótico en la ventana (exponente {n} ± {error}), pero sin rozamiento nada sujeta la bola: calcula más tiempo",
+        onAxis: "la bola permanece en el eje, del que se alejan las bolas vecinas: se separan por e^{growth} en la ventana, y no dicen si el momento por sí solo se mueve con regularidad",
         chaotic: "el mayor exponente de Liapunov es positivo en la ventana: {n} ± {error}",
         unclear: "aún no se puede decir si es regular o caótico: el exponente de Liapunov a través del flujo es {n} ± {error}, de modo que los vecinos se separaron en e^{growth} en la ventana; calcula más tiempo",
         neitherWay: "Phi gira, pero la bola no circula en ningún sentido: ⟨α′⟩ = {n} ± {error}",

@@ -104,6 +104,7 @@ export default {
         tooShort: "trop court : rien n’est décidé sur moins de {n} périodes entières de l’entraînement après celles qui ne comptent pas",
         discContact: "on ne peut pas dire si c’est régulier ou chaotique : ce programme ne sait pas comment se meuvent les voisins d’une bille tenue par un disque de contact",
         chaoticFree: "chaotique sur la fenêtre (exposant {n} ± {error}), mais sans frottement rien ne retient la bille : calculez plus longtemps",
+        onAxis: "la bille reste sur l’axe, que quittent les billes voisines : elles s’écartent de e^{growth} sur la fenêtre, et ne disent pas si le moment seul bouge régulièrement",
         chaotic: "le plus grand exposant de Liapounov est positif sur la fenêtre : {n} ± {error}",
         unclear: "on ne peut pas encore dire si c’est régulier ou chaotique : l’exposant de Liapounov en travers du flot est {n} ± {error}, si bien que des voisins se sont écartés de e^{growth} sur la fenêtre ; calculez plus longtemps",
         neitherWay: "Phi tourne, mais la bille ne tourne dans aucun sens : ⟨α′⟩ = {n} ± {error}",
