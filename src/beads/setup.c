@@ -18,6 +18,8 @@
 #include "model/worlds.h"
 
 static const double BOUNCE_LEAST = 1e-4, OVERLAP = 1e-9, USUAL_REMANENCE = 1.2;
+/* Over the radius of the bowl, or of the bead: a start that is told with so few digits is one on the surface. */
+static const double FEW_DIGITS = 1e-6;
 
 /* ------------------------------------------------------------------ what cannot be */
 
@@ -61,9 +63,9 @@ static fst_status check_kinds(const fst_params *p, int bead, fst_error *error)
                         "choose run.method exact for %s",
                         fst_key_of_surroundings(p));
     if (p->friction_law == FST_FRICTION_ROLLING)
-        return fst_fail(
-            error, FST_BAD_INPUT, "friction.law",
-            "beads that touch cannot all roll without slip: friction.law must be viscous, coulomb or none");
+        return fst_fail(error, FST_BAD_INPUT, "friction.law",
+                        "several beads, or one in a world, slide as well as roll: friction.law must be "
+                        "viscous, coulomb or none");
     if (p->model_dynamics != FST_DYNAMICS_RIGID)
         return fst_fail(
             error, FST_BAD_INPUT, "model.dynamics",
@@ -261,6 +263,23 @@ static void take_state(const double *given, const beads_world *world, double *st
         state[FST_BEAD_NUMBERS * i + 2] -= over_plate ? world->body[i].radius : 0.0;
 }
 
+/* A start that is hardly below the surface is on it. */
+static void raise_starts(const beads_world *world, double *state)
+{
+    for (int i = 0; i < world->count; ++i) {
+        double *x = state + FST_BEAD_NUMBERS * i;
+        const double gap = beads_plate_gap(world, i, state), rho = world->bowl - world->body[i].radius;
+        if (gap >= -OVERLAP || gap < -FEW_DIGITS * fmax(world->bowl, world->body[i].radius))
+            continue;
+        if (world->bowl > 0) { /* towards its centre */
+            for (int k = 0; k < 2; ++k)
+                x[k] *= rho / (rho - gap);
+            x[2] = rho + (x[2] - rho) * (rho / (rho - gap));
+        } else
+            x[2] = 0.0;
+    }
+}
+
 static fst_status add_bodies(const fst_params *beads, const fst_groups *first, beads_world *world,
                              double *state, fst_error *error)
 {
@@ -309,5 +328,6 @@ fst_status beads_set_up(const fst_params *beads, int count, const fst_beads_opti
     set_dipoles(isnan(options->chi) ? chi_of_moment(&beads[0], &g) : options->chi, world);
     if (options->state)
         take_state(options->state, world, state);
+    raise_starts(world, state);
     return check_apart(world, state, error);
 }

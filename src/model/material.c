@@ -37,6 +37,10 @@ int fst_bead_contradiction(const fst_params *params, char *sentence, size_t size
         sentence[0] = '\0';
     if (params->bead_material == FST_MATERIAL_PARAMAGNETIC && params->bead_a == 0.0)
         return snprintf(sentence, size, "bead.a is 0: the bead feels no magnet");
+    if (params->bead_material == FST_MATERIAL_HARD &&
+        (params->bead_remanence == 0.0 || params->bead_moment == 0.0))
+        return snprintf(sentence, size, "bead.%s is 0: the bead feels no magnet",
+                        params->bead_remanence == 0.0 ? "remanence" : "moment");
     if (!isnan(params->model_eps)) /* a scaled bead, whose radius in metres plays no part */
         return 0;
     if (!(density >= LIGHTEST && density <= HEAVIEST))

@@ -178,6 +178,23 @@ class Worlds(Case):
             self.assertLess(abs(run["energy_residual"]), 1e-10)
             self.assertLess(run["mean_alpha_dot"], 0)
 
+    def test_a_start_a_little_below_the_bowl_is_on_it(self):
+        """Told with seven digits; the bead then is where the wall is, towards the bowl's centre."""
+        rho = 97.5
+        for low, x, good in ((34e-6, 20.0, True), (99e-6, 20.0, True), (150e-6, 20.0, False)):
+            z = 100 - math.sqrt(rho**2 - x**2) - low
+            words = [word for text in ("plate.shape=bowl", "plate.bowl_radius=100mm", "start.spin=rest", f"start.position[0]={x}mm", "start.position[1]=0mm",
+                                       f"start.position[2]={z!r}mm", "run.duration=1ms", "run.discard=0", "run.samples=1000") for word in ("--set", text)]
+            if not good:
+                self.assertIn("below its place", self.refused("run", *words))
+                continue
+            self.good("run", *words, "--csv", self.path("low.csv"))
+            with open(self.path("low.csv"), encoding="utf-8") as file:
+                first = [line for line in file if not line.startswith("#")][1].split(",")
+            place = [23 * float(cell) for cell in first[2:5]]
+            self.assertAlmostEqual(math.hypot(place[0], place[1], place[2] - 100), rho, delta=1e-10)
+            self.assertAlmostEqual(place[0] / (100 - place[2]), x / (100 - z), delta=1e-12)
+
     def test_a_wide_bowl_in_thin_air_is_the_plate(self):
         flat = json.loads(self.good("run", "--set", "run.periods=20", "--json"))
         bowl = json.loads(self.good("run", "--set", "run.periods=20", "--set", "plate.shape=bowl", "--set",
@@ -281,6 +298,7 @@ class Worlds(Case):
                              ("without medium.density", "medium.drag_coefficient=0.4"),
                              ("choose one above 0", "plate.tilt_azimuth=3"),
                              ("choose carried", "drive.velocity[1]=1"),
+                             ("slide as well as roll", "friction.law=rolling", "plate.tilt=1deg"),
                              ("say", "medium.viscosity=1e-3", "medium.drag_rate=1"),
                              ("pulls the bead off", "plate.gravity=-9.81"),
                              ("start.position[2]", "plate.shape=none"),

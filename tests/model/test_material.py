@@ -48,6 +48,7 @@ class Material(unittest.TestCase):
         unmoved = ("bead.radius=3mm", "bead.material=paramagnetic")
         self.assertEqual(self.warnings(unmoved), ["bead.a is 0: the bead feels no magnet"])
         self.assertEqual(self.warnings((*unmoved, "bead.a=0.1")), [])
+        self.assertEqual(self.warnings(("bead.remanence=0", "magnet.b0=10mT")), ["bead.remanence is 0: the bead feels no magnet"])
         for settings in self.POSSIBLE:
             self.assertEqual(self.warnings(settings), [], settings)
 

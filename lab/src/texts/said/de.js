@@ -75,7 +75,7 @@ export default {
         mostBeads: "die Seite zeigt höchstens acht Kugeln: Mehr rechnet festoon run",
         steppingFlat: "Zeitschritte kennen nur ebene Platten: für eine Schale run.method exact wählen",
         steppingSteady: "Zeitschritte kennen nur einen Magneten, der sich gleichmäßig unter einer waagerechten Platte dreht: für {key} run.method exact wählen",
-        noRolling: "Kugeln, die sich berühren, können nicht alle ohne Gleiten rollen: friction.law muss viscous, coulomb oder none sein",
+        noRolling: "mehrere Kugeln, oder eine in einer Umgebung, gleiten auch, statt nur zu rollen: friction.law muss viscous, coulomb oder none sein",
         rigidBeads: "mehrere Kugeln, oder eine in einer Umgebung, bewegen sich als starre Kugeln: model.dynamics muss rigid sein",
         noMap: "mehrere Kugeln, oder eine in einer Umgebung, brauchen das Feld im Raum, und das gemessene in magnet.file gilt in einer Ebene: für magnet.shape lines oder parts wählen",
         hardBeads: "mehrere Kugeln, oder eine in einer Umgebung, sind bisher Dauermagnete: bead.material muss hard sein",

@@ -83,7 +83,7 @@ export default {
         mostBeads: "the page shows eight beads at most: run more of them with festoon run",
         steppingFlat: "time stepping knows flat plates alone: choose run.method exact for a bowl",
         steppingSteady: "time stepping knows a magnet that turns steadily over a level plate alone: choose run.method exact for {key}",
-        noRolling: "beads that touch cannot all roll without slip: friction.law must be viscous, coulomb or none",
+        noRolling: "several beads, or one in a world, slide as well as roll: friction.law must be viscous, coulomb or none",
         rigidBeads: "several beads, or one in a world, move as rigid spheres: model.dynamics must be rigid",
         noMap: "several beads, or one in a world, need the field in space, and the map of magnet.file has that of one plane: choose magnet.shape lines or parts",
         hardBeads: "several beads, or one in a world, are hard magnets so far: bead.material must be hard",

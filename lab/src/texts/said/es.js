@@ -75,7 +75,7 @@ export default {
         mostBeads: "la página muestra ocho bolas como mucho: festoon run calcula más",
         steppingFlat: "los pasos de tiempo solo conocen placas planas: elige run.method exact para un cuenco",
         steppingSteady: "los pasos de tiempo solo conocen un imán que gira uniformemente bajo una placa horizontal: elige run.method exact para {key}",
-        noRolling: "las bolas que se tocan no pueden rodar todas sin deslizar: friction.law debe ser viscous, coulomb o none",
+        noRolling: "varias bolas, o una en un entorno, además de rodar deslizan: friction.law debe ser viscous, coulomb o none",
         rigidBeads: "varias bolas, o una en un entorno, se mueven como esferas rígidas: model.dynamics debe ser rigid",
         noMap: "varias bolas, o una en un entorno, necesitan el campo en el espacio, y el medido de magnet.file es de un solo plano: elige lines o parts para magnet.shape",
         hardBeads: "varias bolas, o una en un entorno, son por ahora imanes permanentes: bead.material debe ser hard",

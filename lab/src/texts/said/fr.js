@@ -75,7 +75,7 @@ export default {
         mostBeads: "la page montre au plus huit billes : festoon run en calcule davantage",
         steppingFlat: "les pas de temps ne connaissent que les plaques planes : choisissez run.method exact pour un bol",
         steppingSteady: "les pas de temps ne connaissent qu’un aimant qui tourne régulièrement sous une plaque horizontale : choisissez run.method exact pour {key}",
-        noRolling: "des billes qui se touchent ne peuvent pas toutes rouler sans glisser : friction.law doit être viscous, coulomb ou none",
+        noRolling: "plusieurs billes, ou une dans un environnement, glissent aussi bien qu’elles roulent : friction.law doit être viscous, coulomb ou none",
         rigidBeads: "plusieurs billes, ou une dans un environnement, se meuvent comme des sphères rigides : model.dynamics doit être rigid",
         noMap: "plusieurs billes, ou une dans un environnement, demandent le champ dans l’espace, et celui de magnet.file est mesuré dans un seul plan : choisissez lines ou parts pour magnet.shape",
         hardBeads: "plusieurs billes, ou une dans un environnement, sont jusqu’ici des aimants durs : bead.material doit être hard",

@@ -75,7 +75,7 @@ export default {
         mostBeads: "本页最多显示八个小球：更多的请用 festoon run 计算",
         steppingFlat: "时间步进只适用于平的板：碗请选择 run.method exact",
         steppingSteady: "时间步进只适用于在水平平板下匀速转动的磁铁：有 {key} 时请选择 run.method exact",
-        noRolling: "互相接触的小球不可能都无滑滚动：friction.law 必须是 viscous、coulomb 或 none",
+        noRolling: "多个小球或处于环境中的一个小球既滚动也滑动：friction.law 必须是 viscous、coulomb 或 none",
         rigidBeads: "多个小球或处于环境中的一个小球按刚性球运动：model.dynamics 必须是 rigid",
         noMap: "多个小球或处于环境中的一个小球需要空间中的磁场，而 magnet.file 的实测磁场只有一个平面：magnet.shape 请选择 lines 或 parts",
         hardBeads: "目前多个小球或处于环境中的一个小球都是永磁体：bead.material 必须是 hard",
