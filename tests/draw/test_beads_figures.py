@@ -250,11 +250,31 @@ class Beads(unittest.TestCase):
         upright = [line if line.startswith("#") else ",".join([*line.split(",")[:place], "0,0,1", *line.split(",")[place + 3:]])
                    for line in lines[first:]]
         (self.folder / "upright.csv").write_text("\n".join([*lines[:first], *upright]) + "\n", encoding="utf-8")
-        self.refused("along the axis of the drive all the time", "--kind", "lag", name="upright.csv")
+        self.refused("lies along the z axis all the time", "--kind", "lag", name="upright.csv")
         self.refused("is of one bead in a world, and this trajectory is of 3", "--kind", "lag")
-        told = run("run", "--set", "drive.waveform=oscillating", "--set", "run.periods=3", "--set", "run.discard=1", "-o", self.folder / "swing.csv")
-        self.assertEqual(told[0], 0, told[2])
-        self.refused("a wave or a magnet that turns steadily", "--kind", "lag", name="swing.csv")
+
+    def test_the_lag_is_behind_the_field_at_the_bead(self):
+        """Behind the field of crossed coils, not the drive's phase; and the angle between both where the field is upright."""
+        coil = "{{radius: 5 m, centre: [0,0,0], axis: {}, turns: 1000, {}}}"
+        crossed = coil.format("[1,0,0]", "ac: 1 A, frequency: 4 Hz") + ", " + coil.format("[0,1,0]", "ac: 1 A, frequency: 4 Hz, phase: -70 deg")
+        free = "plate: {shape: none, gravity: 0, radius: 10 m}\nmedium: {spin_drag_rate: 40 1/s, drag_rate: 5 1/s}\n"
+        start = "start: {position: [0,0,0.1 m], n: [1,0,0.5], velocity: [0,0,0], angular_velocity: [0,0,0]}\n"
+        for name, coils, axis in ("crossed", crossed, "about z"), ("upright", coil.format("[0,0,1]", "current: 1 A"), "angle between"):
+            (self.folder / f"{name}.yaml").write_text(
+                "bead: {radius: 2 mm, density: 7.5 g/cm^3, remanence: 1.2 T}\nmagnet: {shape: parts, depth: 10 mm}\n"
+                f"coils: [{coils}]\ndrive: {{frequency: 3 Hz}}\nrun: {{periods: 4, discard: 2, samples: 32}}\n{free}{start}", encoding="utf-8")
+            told = run("run", self.folder / f"{name}.yaml", "-o", self.folder / "lag.csv")
+            self.assertEqual(told[0], 0, told[2])
+            script, curves = self.plot("--kind", "lag", "--from", 2, name="lag.csv")
+            self.assertIn(axis, script)
+            (_, (piece,)), = [curve for some in curves.values() for curve in some if curve[0] == "panel1-curve1"]
+            rows = [row for row in read(self.folder / "lag.csv") if row["t"] / GAMMA * 3 >= 2 - 1e-9]
+            for row, (angle, _) in zip(rows, piece, strict=True):
+                turned = 8 * math.pi * row["t"] / GAMMA
+                field = math.atan2(math.cos(turned - math.radians(70)), math.cos(turned))
+                wanted = (math.atan2(row["nY_0"], row["nX_0"]) - field if name == "crossed" else math.acos(row["nZ_0"]))
+                self.assertAlmostEqual(math.remainder(math.radians(angle) - wanted, 2 * math.pi), 0, delta=1e-5, msg=name)
+            self.assertEqual(name == "crossed", min(angle for angle, _ in piece) < -10, name)
 
     def test_every_drive(self):
         """A trajectory is drawn whole, and from one period of the drive to the next, also where the magnet turns back."""
