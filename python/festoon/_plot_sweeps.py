@@ -197,6 +197,23 @@ def _gap_marks(ax: Any, x: Any, states: Any, hidden: Any, level: int, code: str)
     return count
 
 
+def _without_outliers(y: Any, states: Any) -> Any:
+    """What is far beyond the values of the motions, as of a bead on its way out, is told by its sign."""
+    gaps = np.isin(states, list(_GAPS))
+    motions = y[~gaps & np.isfinite(y)]
+    if not len(motions):
+        return y
+    low, high = motions.min(), motions.max()
+    wider = max(high - low, 0.5 * max(abs(low), abs(high)))
+    return np.where(gaps & ~((y >= low - wider) & (y <= high + wider)), np.nan, y)
+
+
+def _joined(x: Any, y: Any, states: Any) -> Any:
+    """The points of a line that joins neighbours of one regime alone."""
+    cut = np.flatnonzero(np.isin(states[:-1], list(_GAPS)) | (states[:-1] != states[1:])) + 1
+    return np.insert(x, cut, np.nan), np.insert(y, cut, np.nan)
+
+
 def _text(value: Any) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
@@ -220,15 +237,17 @@ def _curves(s: Any, y: str, sides: List[_Side], units: str, free: bool, name: Op
         rows = np.searchsorted(there, values).astype(float)
         values = np.where(np.isfinite(values), rows, np.nan)
         ax.set_yticks(range(len(there)), [REGIMES[int(i)] for i in there])
-    lines, marks, before = [], [], sum(len(one.lines) for one in others)
-    if len(sides) == 1:
-        lines += ax.plot(across, values[:, 0], color="#b0b0b0", linewidth=0 if y == "regime" else 1.2, zorder=2)
-        marks += _regime_marks(ax, across, values[:, 0], _regime_index(s)[order])
     states = np.where(s.failed, "failed", np.where(s.computed, s.regime, ""))
     states = np.moveaxis(states, sides[0].along, 0).reshape(len(sides[0].values), -1)[order]
+    for i in range(values.shape[1] if y != "regime" else 0):
+        values[:, i] = _without_outliers(values[:, i], states[:, i])
+    lines, marks, before = [], [], sum(len(one.lines) for one in others)
+    if len(sides) == 1:
+        lines += ax.plot(*_joined(across, values[:, 0], states[:, 0]), color="#b0b0b0", linewidth=0 if y == "regime" else 1.2, zorder=2)
+        marks += _regime_marks(ax, across, values[:, 0], _regime_index(s)[order])
     for i in range(values.shape[1] if len(sides) == 2 else 0):
         lines += ax.plot(
-            across, values[:, i], color=_style.colour(_CURVES[(before + i) % len(_CURVES)]), linewidth=1.5, marker="o",
+            *_joined(across, values[:, i], states[:, i]), color=_style.colour(_CURVES[(before + i) % len(_CURVES)]), linewidth=1.5, marker="o",
             linestyle="none" if y == "regime" else "-", markersize=3 if len(across) <= 80 else 1.5,
             label=sides[1].text(i),
         )

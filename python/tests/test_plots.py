@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import festoon as fs
-from festoon import _style, plots
+from festoon import _plot_sweeps, _style, plots
 
 pytest.importorskip("matplotlib")
 
@@ -31,7 +31,9 @@ def line():
 
 
 def curve(ax, number=0):
-    return ax.lines[number].get_xydata().T
+    """The points of a line, without its gaps between runs of different regimes."""
+    x, y = ax.lines[number].get_xydata().T
+    return np.stack([x[np.isfinite(x)], y[np.isfinite(x)]])
 
 
 def words(ax):
@@ -105,6 +107,11 @@ def test_sweep_of_one_parameter(line):
     assert np.allclose(curve(ax), [[8, 10, 12, 16], 23 * line.mean_r], rtol=1e-12)
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("drive frequency (Hz)", "mean radius ⟨r⟩ (mm)")
     assert set(words(ax)) == set(line.regime)
+    gaps = np.flatnonzero(np.isnan(ax.lines[0].get_xdata()))
+    assert gaps.tolist() == [1] and line.regime.tolist() == ["librating"] + ["counter-rotating"] * 3, "lines join runs of one regime"
+    states, far = np.array(["locked", "locked", "undecided", "undecided", "ejected"]), np.array([1, 1.2, 50, 1.3, np.nan])
+    assert np.isnan(_plot_sweeps._without_outliers(far, states)).tolist() == [False, False, True, False, True]
+    assert _plot_sweeps._without_outliers(far[2:], states[2:])[0] == 50, "where there is no motion all is drawn"
     ax = line.plot("mean_r", units="scaled")
     assert np.allclose(curve(ax), [line.omega, line.mean_r], rtol=1e-12) and "ℓ" in ax.get_ylabel()
     ax = line.plot("regime")
@@ -265,7 +272,7 @@ def test_several_sweeps_or_branches_in_one_axes():
     for one, words in ((s[:, 1], {}), (far, {}), (far, {"label": "mine"})):
         one.plot(ax=ax, **words)
     cycle = plt.rcParams["axes.prop_cycle"].by_key()["color"]
-    lines = [line for line in ax.lines if len(line.get_xdata()) == 3 and line.get_linestyle() == "-"]
+    lines = [line for line in ax.lines if np.isfinite(line.get_xdata()).sum() == 3 and line.get_linestyle() == "-"]
     assert [line.get_color() for line in lines] == cycle[:4] and not ax.collections
     assert [line.get_label() for line in lines] == ["kappa 1.2", "kappa 1.5", "kappa 2.5", "mine"]
     assert {text.get_text() for text in ax.get_legend().get_texts()} >= {"kappa 1.2", "mine"}

@@ -35,20 +35,21 @@ static const option options[] = {
     {NULL, '\0', NULL, NULL},
 };
 
-/* Refuse the options that say nothing of such a file: `words` has those that do, a|b|c. */
+/* Refuse the options that say nothing of such a file: `words` has those that do beside those of every figure, a|b|c. */
 static fst_status refuse_others(const arguments *given, const char *words, const char *what, fst_error *error)
 {
     for (int i = 0; i < given->option_count; ++i) {
         const char *name = given->options[i].row->name;
         char wanted[32], all[160];
         (void)snprintf(wanted, sizeof wanted, "|%s|", name);
-        (void)snprintf(all, sizeof all, "|output|title|size|quiet|%s|", words);
+        (void)snprintf(all, sizeof all, "|output|quiet|%s|title|size|", words);
         if (strstr(all, wanted))
             continue;
         size_t used = 0;
         for (const char *c = words; *c && used + 5 < sizeof all; ++c)
             used += (size_t)snprintf(all + used, sizeof all - used, *c == '|' ? ", --" : "%c", *c);
-        return fail(error, FST_BAD_INPUT, "", "--%s does not belong to %s; what does: --%s", name, what, all);
+        return fail(error, FST_BAD_INPUT, "", "--%s does not belong to %s; what does: --%s, --title, --size",
+                    name, what, all);
     }
     return FST_OK;
 }
@@ -202,7 +203,8 @@ static fst_status plot_points(const arguments *given, const char *to, FILE *out,
     const char *tables[FST_CHARTS_OVER + 1];
     char words[KEYS_SIZE];
     int is_sweep = 0, table_count = 0;
-    fst_status status = refuse_others(given, "points|quantity|units", "a figure with measured points", error);
+    fst_status status =
+        refuse_others(given, "points|quantity|only|units", "a figure with measured points", error);
     for (int i = 0; i < given->option_count && table_count <= FST_CHARTS_OVER; ++i)
         if (strcmp(given->options[i].row->name, "points") == 0)
             tables[table_count++] = given->options[i].value;
@@ -216,11 +218,7 @@ static fst_status plot_points(const arguments *given, const char *to, FILE *out,
                           "--points belongs to sweeps and branches; this file is neither");
     }
     if (status == FST_OK)
-        status = read_units(given, &figure.units, error);
-    if (status == FST_OK)
-        status = read_look(given, &figure.title, figure.size, error);
-    if (status == FST_OK)
-        status = read_quantities(given, words, figure.keys, FST_SWEEP_FIGURE_KEYS, error);
+        status = read_sweep_figure(given, &figure, words, error);
     if (status == FST_OK)
         status = fst_figure_points(given->operands, given->operand_count, tables, table_count, &figure, to,
                                    fits, error);

@@ -155,3 +155,13 @@ void fst_caption_of_files(const fst_params *const *scenes, const char *const *pa
                            fst_file_name(paths[i]));
         }
 }
+
+void fst_caption_slices(const char *const *slices, int count, const char *name, char *same, size_t size)
+{
+    int alike = slices[0][0] && !strstr(same, slices[0]) && !strstr(name, slices[0]);
+    for (int i = 1; i < count; ++i)
+        alike &= strcmp(slices[i], slices[0]) == 0;
+    const size_t told = strlen(same);
+    if (alike)
+        (void)snprintf(same + told, size - told, "%sat %.160s", told ? "; " : "", slices[0]);
+}

@@ -24,4 +24,8 @@ void fst_caption_of_files(const fst_params *const *scenes, const char *const *pa
 /* The name of a file without its folder. */
 const char *fst_file_name(const char *path);
 
+/* Add "at friction.mu 0.2", the values that slices of sweeps have, where all have the same and neither this text nor the
+ * first file's name tells it, as what is as by default. */
+void fst_caption_slices(const char *const *slices, int count, const char *name, char *same, size_t size);
+
 #endif

@@ -65,22 +65,6 @@ static fst_status take_branch(source *s, const wanted *w, fst_error *error)
     return status;
 }
 
-/* What is asked for of one sweep: the values of those axes that it has. */
-static fst_sweep_figure figure_of(const fst_grid *grid, wanted *w)
-{
-    fst_sweep_figure figure = w->sweeps;
-    int count = 0;
-    memset(figure.at, 0, sizeof figure.at);
-    for (int i = 0; i < FST_AXIS_LIMIT && w->sweeps.at[i]; ++i)
-        for (int axis = 0; axis < fst_grid_axis_count(grid); ++axis) {
-            if (fst_sweep_is_at(w->sweeps.at[i], fst_grid_key(grid, axis))) {
-                figure.at[count++] = w->sweeps.at[i];
-                w->used[i] = 1;
-            }
-        }
-    return figure;
-}
-
 static fst_status take_sweep(source *s, wanted *w, fst_error *error)
 {
     fst_sweep_table table;
@@ -89,7 +73,7 @@ static fst_status take_sweep(source *s, wanted *w, fst_error *error)
         return status;
     const fst_grid *grid = table.grid;
     s->carry = table.carry;
-    const fst_sweep_figure figure = figure_of(grid, w);
+    const fst_sweep_figure figure = fst_sweep_figure_of(grid, &w->sweeps, w->used);
     fst_sweep_slice slice;
     status = fst_chart_of_sweep(s->path, &figure, &s->chart, &slice, error);
     s->scene = malloc(sizeof *s->scene);
@@ -143,23 +127,18 @@ static void name_files(const source *sources, int count, char (*names)[FST_CAPTI
                        size_t size)
 {
     const fst_params *scenes[FST_CHARTS_OVER];
-    const char *shown[FST_CHARTS_OVER * FST_AXIS_LIMIT], *paths[FST_CHARTS_OVER];
+    const char *shown[FST_CHARTS_OVER * FST_AXIS_LIMIT], *paths[FST_CHARTS_OVER], *slices[FST_CHARTS_OVER];
     int shown_count = 0;
     for (int i = 0; i < count; ++i) {
         scenes[i] = sources[i].scene;
         paths[i] = sources[i].path;
+        slices[i] = sources[i].at;
         for (int k = 0; k < sources[i].shown_count; ++k)
             shown[shown_count++] = sources[i].shown[k];
     }
     fst_caption_of_files(scenes, paths, count, shown, shown_count, names, same, size);
-    int alike = 1; /* the slices: what they differ in is in the names */
-    for (int i = 1; i < count; ++i)
-        alike &= strcmp(sources[i].at, sources[0].at) == 0;
-    const size_t told = strlen(same);
-    if (alike && sources[0].at[0] && !strstr(same, sources[0].at) && !strstr(names[0], sources[0].at))
-        (void)snprintf(same + told, size - told, "%sat %.160s", told ? "; " : "",
-                       sources[0].at); /* as by default */
-    for (int i = 0; i < count; ++i) {  /* runs that were begun where their neighbours ended */
+    fst_caption_slices(slices, count, names[0], same, size);
+    for (int i = 0; i < count; ++i) { /* runs that were begun where their neighbours ended */
         const size_t used = strlen(names[i]);
         if (sources[i].carry != FST_CARRY_NO)
             (void)snprintf(names[i] + used, FST_CAPTION_SIZE - used, ", %s",
@@ -235,10 +214,8 @@ fst_status fst_figure_over(const char *const *paths, int count, const fst_figure
         sources[i].path = paths[i];
         status = take(&sources[i], &w, error);
     }
-    for (int i = 0; i < FST_AXIS_LIMIT && w.sweeps.at[i] && status == FST_OK; ++i)
-        if (!w.used[i])
-            status = fst_fail(error, FST_BAD_INPUT, "fst_sweep_figure.at",
-                              "no sweep of these varies what \"%.80s\" says", w.sweeps.at[i]);
+    if (status == FST_OK)
+        status = fst_sweep_check_used(&w.sweeps, w.used, error);
     if (status == FST_OK)
         status = draw(sources, count, &w, out, error);
     for (int i = 0; i < count; ++i) {

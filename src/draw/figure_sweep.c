@@ -128,9 +128,8 @@ static int is_random(const fst_grid *grid)
     return 0;
 }
 
-/* The slice that `options` ask for, over one axis or two. */
-static fst_status cut(const fst_grid *grid, const char *path, const fst_sweep_figure *options,
-                      fst_shown_units units, fst_sweep_slice *slice, fst_error *error)
+fst_status fst_sweep_cut(const fst_grid *grid, const char *path, const fst_sweep_figure *options,
+                         fst_shown_units units, fst_sweep_slice *slice, fst_error *error)
 {
     int fixed[FST_AXIS_LIMIT] = {0};
     *slice = (fst_sweep_slice){.varied = 0};
@@ -161,6 +160,30 @@ static fst_status cut(const fst_grid *grid, const char *path, const fst_sweep_fi
                           "takes those points where another axis has a value",
                           slice->varied);
     return status;
+}
+
+fst_sweep_figure fst_sweep_figure_of(const fst_grid *grid, const fst_sweep_figure *of, int used[FST_AXIS_LIMIT])
+{
+    fst_sweep_figure figure = *of;
+    int count = 0;
+    memset(figure.at, 0, sizeof figure.at);
+    for (int i = 0; i < FST_AXIS_LIMIT && of->at[i]; ++i)
+        for (int axis = 0; axis < fst_grid_axis_count(grid); ++axis)
+            if (fst_sweep_is_at(of->at[i], fst_grid_key(grid, axis))) {
+                figure.at[count++] = of->at[i];
+                used[i] = 1;
+            }
+    return figure;
+}
+
+fst_status fst_sweep_check_used(const fst_sweep_figure *figure, const int used[FST_AXIS_LIMIT],
+                                fst_error *error)
+{
+    for (int i = 0; i < FST_AXIS_LIMIT && figure->at[i]; ++i)
+        if (!used[i])
+            return fst_fail(error, FST_BAD_INPUT, "fst_sweep_figure.at",
+                            "no sweep of these varies what \"%.80s\" says", figure->at[i]);
+    return FST_OK;
 }
 
 /* ------------------------------------------------------------------ keys */
@@ -238,7 +261,7 @@ static fst_status read_sweep(const char *path, const fst_sweep_figure *options, 
         return status;
     const fst_shown_units units =
         options->units != FST_SHOWN_AS_GIVEN ? options->units : fst_sweep_units(grid, options->at);
-    status = cut(grid, path, options, units, &s->slice, error);
+    status = fst_sweep_cut(grid, path, options, units, &s->slice, error);
     if (status == FST_OK) {
         s->is_map = wants_map(grid, options, &s->slice);
         status = choose_quantities(grid, options, units, s, keys, error);

@@ -19,6 +19,7 @@ typedef struct drawing {
     size_t failed;   /* points of the slice, drawn or not */
     int plain;       /* it is laid over others, of which the key says the number of failed points of none */
     int all_gaps;    /* there is no motion among them, an undecided one neither */
+    double *states;  /* what became of each of them */
     double *x;
     fst_chart_curve *curves;
     fst_chart_panel *panels;
@@ -93,6 +94,12 @@ int fst_sweep_gap(const char *state_key, double state, int computed)
     return -1;
 }
 
+int fst_sweep_joins(const char *state_key, double state, double next)
+{
+    const int floats = strcmp(state_key, "below") == 0; /* a place goes on where its stability changes */
+    return fst_sweep_gap(state_key, state, 1) < 0 && (state == next || floats);
+}
+
 fst_chart_curve fst_sweep_sign(const char *state_key, int gap)
 {
     const fst_sweep_names *names = fst_sweep_names_of(state_key);
@@ -110,7 +117,7 @@ static int note_gaps(drawing *d, const fst_sweep_slice *slice, int count)
 {
     const fst_grid *grid = d->table->grid;
     const double *all = d->table->values + (size_t)count * (size_t)fst_grid_points(grid);
-    const double *states = values_of(d, count);
+    const double *states = d->states = values_of(d, count);
     d->gaps = fst_chart_keep(d->chart, (d->points + 1) * sizeof *d->gaps);
     d->all_gaps = d->points > 0;
     for (int64_t i = 0; i < slice->axes[0].count; ++i) {
@@ -148,6 +155,40 @@ static int add_signs(drawing *d, const double *values, int told)
     return 1;
 }
 
+/* Take away what is far beyond the values of the motions, as of a bead that is on its way out: its sign tells it, and the
+ * scale is that of the motions. */
+static void hide_outliers(const drawing *d, double *values)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; i < d->points; ++i)
+        if (d->gaps[i] < 0 && isfinite(values[i])) {
+            low = fmin(low, values[i]);
+            high = fmax(high, values[i]);
+        }
+    const double wider = fmax(high - low, 0.5 * fmax(fabs(low), fabs(high)));
+    for (size_t i = 0; i < d->points && low <= high; ++i)
+        if (d->gaps[i] >= 0 && !(values[i] >= low - wider && values[i] <= high + wider))
+            values[i] = NAN;
+}
+
+/* Add a curve whose lines join neighbours of one state.  0: no memory. */
+static int add_line(drawing *d, const double *values, fst_curve_style style)
+{
+    const char *key = fst_sweep_state_key(d->table->grid);
+    double *x = fst_chart_keep(d->chart, (4 * d->points + 1) * sizeof *x), *y = x + 2 * d->points;
+    size_t count = 0;
+    for (size_t i = 0; x && i < d->points; ++i) {
+        x[count] = d->x[i];
+        y[count++] = values[i];
+        if (i + 1 < d->points && !fst_sweep_joins(key, d->states[i], d->states[i + 1]))
+            x[count] = y[count] = NAN, ++count;
+    }
+    add_curve(d, y, NULL, FST_COLOUR_BLUE, style);
+    d->curves[d->curve_count - 1].x = x;
+    d->curves[d->curve_count - 1].count = count;
+    return x != NULL;
+}
+
 /* A panel for one key, whose points have the colours of their regimes where these are given.  0: no memory. */
 static int add_panel(drawing *d, const fst_sweep_quantity *quantity, const double *values, const double *regime,
                      fst_curve_style style)
@@ -166,8 +207,8 @@ static int add_panel(drawing *d, const fst_sweep_quantity *quantity, const doubl
                                .curves = &d->curves[first]};
     if (!panel->left_label || (names && !panel->tics) || (regime && !add_regimes(d, regime, values)))
         return 0;
-    if (!regime)
-        add_curve(d, values, NULL, FST_COLOUR_BLUE, names ? FST_CURVE_POINTS : style);
+    if (!regime && !add_line(d, values, names ? FST_CURVE_POINTS : style))
+        return 0;
     if (!add_signs(d, values, regime || names))
         return 0;
     panel->curve_count = d->curve_count - first;
@@ -187,9 +228,11 @@ static int add_panels(drawing *d, const fst_sweep_quantity *quantities, int coun
     for (int k = 0; k < count; ++k) {
         if (strcmp(quantities[k].key, "regime") == 0 && k > 0 && !(plain && quantities[k].asked))
             continue;
-        const double *values = values_of(d, k);
+        double *values = values_of(d, k);
         if (!values)
             return 0;
+        if (!fst_sweep_names_of(quantities[k].key))
+            hide_outliers(d, values);
         if (!any_value(values, d->points) && !(plain && d->all_gaps))
             mention_empty(d, quantities[k].label);
         else if (!add_panel(d, &quantities[k], values, regime, style))

@@ -70,11 +70,15 @@ static void name_all(drawing *d)
     static const char *const shown[] = {"drive.frequency", "drive.omega"};
     char names[FST_CHARTS_OVER][FST_CAPTION_SIZE], same[FST_CAPTION_SIZE];
     const fst_params *scenes[FST_CHARTS_OVER];
+    const char *slices[FST_CHARTS_OVER];
     const fst_points_fit *fit = &d->fits[0];
     const int alone = d->result_count == 1 && d->table_count == 1;
-    for (int m = 0; m < d->result_count; ++m)
+    for (int m = 0; m < d->result_count; ++m) {
         scenes[m] = d->models[m].scene;
+        slices[m] = d->models[m].slice;
+    }
     fst_caption_of_files(scenes, d->results, d->result_count, shown, 2, names, same, sizeof same);
+    fst_caption_slices(slices, d->result_count, names[0], same, sizeof same);
     for (int m = 0; m < d->result_count; ++m)
         if (d->result_count > 1 && d->table_count == 1)
             tell_fit(&d->fits[m], names[m], d->model_words[m]);
@@ -327,13 +331,17 @@ static fst_status choose_quantities(drawing *d, const char *const *keys, fst_err
     return FST_OK;
 }
 
-static fst_status read_all(drawing *d, fst_error *error)
+static fst_status read_all(drawing *d, const fst_sweep_figure *options, fst_error *error)
 {
+    int used[FST_AXIS_LIMIT] = {0};
     fst_status status = FST_OK;
     for (int p = 0; p < d->table_count && status == FST_OK; ++p)
         status = fst_points_read(d->tables[p], &d->points[p], error);
     for (int m = 0; m < d->result_count && status == FST_OK; ++m)
-        status = fst_point_curves_read(d->results[m], d->points, d->table_count, &d->models[m], error);
+        status = fst_point_curves_read(d->results[m], d->points, d->table_count, options, used, &d->models[m],
+                                       error);
+    if (status == FST_OK)
+        status = fst_sweep_check_used(options, used, error);
     for (int i = 0; i < d->result_count * d->table_count && status == FST_OK; ++i) {
         const int p = i % d->table_count;
         d->fits[i] = fst_point_curves_fit(&d->models[i / d->table_count], &d->points[p], d->wanted);
@@ -363,7 +371,7 @@ fst_status fst_figure_points(const char *const *results, int result_count, const
     d->table_count = table_count;
     fst_status status = choose_quantities(d, options->keys, error);
     if (status == FST_OK)
-        status = read_all(d, error);
+        status = read_all(d, options, error);
     if (status == FST_OK)
         status = choose_units(d, options->units, error);
     if (status == FST_OK)

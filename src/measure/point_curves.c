@@ -50,28 +50,32 @@ static double to_hertz(const char *key, double gamma)
                                                : 0.0;
 }
 
-static fst_status no_drive(const char *path, const char *key, fst_error *error)
+static fst_status no_drive(const char *path, const char *key, const char *only, fst_error *error)
 {
-    return fst_fail(error, FST_BAD_INPUT, path,
-                    "points lie over the drive, but this varies %s: vary drive.frequency or drive.omega alone",
-                    key);
+    return fst_fail(
+        error, FST_BAD_INPUT, path,
+        "points lie over the drive, but this varies %s: vary drive.frequency or drive.omega alone%s", key,
+        only);
 }
 
-/* The axis of a sweep that varies; FST_BAD_INPUT: more than one, or not the drive, or a unit varies. */
-static fst_status find_axis(const fst_grid *grid, const char *path, int *axis, double *hertz, fst_error *error)
+/* The slice of a sweep over the drive that is asked for, and how its values become Hz; FST_BAD_INPUT: there is no such one. */
+static fst_status find_slice(const fst_grid *grid, const char *path, const fst_sweep_figure *options,
+                             int used[FST_AXIS_LIMIT], fst_sweep_slice *slice, fst_params *scene, double *hertz,
+                             fst_error *error)
 {
-    *axis = -1;
-    for (int i = 0; i < fst_grid_axis_count(grid); ++i) {
-        if (fst_grid_axis_points(grid, i) < 2)
-            continue;
-        *hertz = to_hertz(fst_grid_key(grid, i), fst_grid_base(grid)->friction_gamma);
-        if (*axis >= 0 || *hertz == 0.0)
-            return no_drive(path, fst_grid_key(grid, i), error);
-        *axis = i;
+    const fst_sweep_figure figure = fst_sweep_figure_of(grid, options, used);
+    if (fst_grid_points(grid) < 2)
+        return fst_fail(error, FST_BAD_INPUT, path, "this sweep has one point: there is no curve to compare");
+    fst_status status = fst_sweep_cut(grid, path, &figure, FST_SHOWN_AS_GIVEN, slice, error);
+    if (status == FST_OK && fst_grid_params(grid, slice->start, scene, NULL) != FST_OK)
+        *scene = *fst_grid_base(grid);
+    for (int i = 0; i < slice->varied && status == FST_OK; ++i) {
+        const char *key = fst_grid_key(grid, slice->axes[i].index);
+        *hertz = to_hertz(key, scene->friction_gamma);
+        if (*hertz == 0.0)
+            status = no_drive(path, key, ", or take a value of the others by fst_sweep_figure.at", error);
     }
-    return *axis >= 0
-               ? FST_OK
-               : fst_fail(error, FST_BAD_INPUT, path, "this sweep has one point: there is no curve to compare");
+    return status;
 }
 
 typedef struct sweep_row {
@@ -90,7 +94,7 @@ static void join_rows(const sweep_row *rows, size_t count, fst_point_curves *p)
 {
     for (size_t i = 0, before = 0; i < count; ++i) {
         const int gap = fst_sweep_gap("regime", rows[i].regime, rows[i].computed);
-        const size_t next = i + 1 < count && gap < 0 && rows[i + 1].regime == rows[i].regime;
+        const size_t next = i + 1 < count && fst_sweep_joins("regime", rows[i].regime, rows[i + 1].regime);
         const size_t end = i + next;
         if (gap >= 0)
             p->gaps[p->gap_count++] = (fst_curve_gap){rows[i].x, gap};
@@ -100,42 +104,44 @@ static void join_rows(const sweep_row *rows, size_t count, fst_point_curves *p)
     }
 }
 
-static fst_status take_sweep(const char *path, fst_point_curves *p, fst_error *error)
+static fst_status take_sweep(const char *path, const fst_sweep_figure *options, int used[FST_AXIS_LIMIT],
+                             fst_point_curves *p, fst_error *error)
 {
     static const char *const keys[] = {"mean_r", "std_r", "mean_alpha_dot", "regime"};
     fst_sweep_table table;
-    int axis = 0;
+    fst_sweep_slice slice;
     double hertz = 0.0;
     fst_status status = fst_sweep_read(path, keys, 4, &table, error);
     if (status != FST_OK)
         return status;
-    const size_t count = (size_t)fst_grid_points(table.grid);
-    const fst_params *base = fst_grid_base(table.grid);
+    const size_t all = (size_t)fst_grid_points(table.grid);
     p->is_sweep = 1;
-    p->length = base->magnet_half_length;
-    p->gamma = base->friction_gamma;
-    const double factors[] = {p->length, p->length, p->gamma / FST_TWO_PI};
-    sweep_row *rows = malloc((count + 1) * sizeof *rows);
-    p->gaps = malloc((count + 1) * sizeof *p->gaps);
+    p->gaps = malloc((all + 1) * sizeof *p->gaps);
     p->scene = malloc(sizeof *p->scene);
-    if (p->scene && fst_grid_params(table.grid, 0, p->scene, NULL) != FST_OK)
-        *p->scene = *base;
+    sweep_row *rows = malloc((all + 1) * sizeof *rows);
     status = rows && p->gaps && p->scene
-                 ? find_axis(table.grid, path, &axis, &hertz, error)
-                 : fst_fail(error, FST_NO_MEMORY, path, "no memory for %zu rows", count);
+                 ? find_slice(table.grid, path, options, used, &slice, p->scene, &hertz, error)
+                 : fst_fail(error, FST_NO_MEMORY, path, "no memory for %zu rows", all);
+    const size_t count = status == FST_OK ? (size_t)slice.axes[0].count : 0;
     if (status == FST_OK)
         status = make_room(p, count, error);
     for (size_t i = 0; i < count && status == FST_OK; ++i) {
-        rows[i].x = hertz * fst_grid_value(table.grid, axis, (int64_t)i);
-        rows[i].regime = table.values[3 * count + i];
-        rows[i].computed = table.computed[i];
+        const int64_t point = slice.start + (int64_t)i * fst_grid_axis_stride(table.grid, slice.axes[0].index);
+        const double factors[] = {p->scene->magnet_half_length, p->scene->magnet_half_length,
+                                  p->scene->friction_gamma / FST_TWO_PI};
+        rows[i].x = hertz * fst_grid_value(table.grid, slice.axes[0].index, point);
+        rows[i].regime = table.values[3 * all + (size_t)point];
+        rows[i].computed = table.computed[point];
         for (size_t q = 0; q < FST_MEASURED_COUNT; ++q)
-            rows[i].value[q] = factors[q] * table.values[q * count + i];
+            rows[i].value[q] = factors[q] * table.values[q * all + (size_t)point];
     }
-    if (status == FST_OK)
+    if (status == FST_OK) {
+        p->length = p->scene->magnet_half_length;
+        p->gamma = p->scene->friction_gamma;
+        memcpy(p->slice, slice.words, sizeof p->slice);
         qsort(rows, count, sizeof *rows, by_x);
-    if (status == FST_OK)
         join_rows(rows, count, p);
+    }
     free(rows);
     fst_sweep_table_free(&table);
     return status;
@@ -236,7 +242,7 @@ static fst_status take_branch(const char *path, const fst_points *tables, int ta
         return status;
     const double hertz = to_hertz(branch.key, branch.gamma);
     if (hertz == 0.0 || branch.second_key[0])
-        status = no_drive(path, branch.second_key[0] ? branch.second_key : branch.key, error);
+        status = no_drive(path, branch.second_key[0] ? branch.second_key : branch.key, "", error);
     else if (isnan(branch.gamma) || isnan(branch.half_length))
         status = fst_fail(error, FST_BAD_INPUT, path,
                           "this branch does not say by which length and rate it is scaled: "
@@ -390,11 +396,13 @@ fst_points_fit fst_point_curves_fit(const fst_point_curves *p, const fst_points 
 }
 
 fst_status fst_point_curves_read(const char *path, const fst_points *tables, int table_count,
+                                 const fst_sweep_figure *options, int used[FST_AXIS_LIMIT],
                                  fst_point_curves *curves, fst_error *error)
 {
     int is_sweep = 0;
     const fst_status status = fst_is_sweep(path, &is_sweep, error);
     if (status != FST_OK)
         return status;
-    return is_sweep ? take_sweep(path, curves, error) : take_branch(path, tables, table_count, curves, error);
+    return is_sweep ? take_sweep(path, options, used, curves, error)
+                    : take_branch(path, tables, table_count, curves, error);
 }

@@ -32,11 +32,14 @@ typedef struct fst_point_curves {
     size_t gap_count;
     double length, gamma; /* m and 1/s: the units of the file's numbers */
     fst_params *scene;    /* NULL: the file does not say */
+    char slice[192];      /* of a sweep over more axes, their values, "friction.mu 0.2" */
 } fst_point_curves;
 
 /* Read the curves of a file into an empty struct, which fst_point_curves_free() frees, also after a failure.  A branch has
- * the orbits at the drives of the tables among its points. */
+ * the orbits at the drives of the tables among its points; of a sweep the slice is read that the options have
+ * (fst_sweep_figure_of()). */
 fst_status fst_point_curves_read(const char *path, const fst_points *tables, int table_count,
+                                 const fst_sweep_figure *options, int used[FST_AXIS_LIMIT],
                                  fst_point_curves *curves, fst_error *error);
 void fst_point_curves_free(fst_point_curves *curves);
 
