@@ -106,10 +106,8 @@ static void test_kappa_gamma2_is_told_where_it_is_measured(void **state)
         const char *given;
     } rows[] = {{0, 1, {"model.kappa"}, 1.0, NULL},
                 {0, 1, {"friction.gamma"}, 2.0, NULL},
-                {0, 1, {"magnet.depth"}, 0.0, NULL},
                 {0, 2, {"magnet.depth", "bead.radius"}, 0.0, NULL},
                 {1, 1, {"bead.remanence"}, 1.0, NULL},
-                {1, 1, {"bead.density"}, -1.0, NULL},
                 {1, 1, {"bead.radius"}, -2.0, NULL},
                 {1, 1, {"friction.gamma"}, 0.0, NULL},
                 {1, 1, {"magnet.depth"}, 0.0, NULL},
