@@ -60,21 +60,26 @@ static void print_length(FILE *out, const char *name, double value, double error
                       value * m->scale_error, m->length_unit, 100.0 * m->scale_error);
 }
 
-/* Frames, and the clock on which all rates rest where no drive checks it. */
-static void print_frames(FILE *out, const fst_measurement *m, const arguments *given)
+/* Two drives are one if they are as near as this. */
+#define OF_DRIVE 0.02
+
+/* Frames, and the clock on which all rates rest where no drive checks it; `drive` is the given one, or NAN. */
+static void print_frames(FILE *out, const fst_measurement *m, const arguments *given, double drive)
 {
+    const int checked = fabs(m->drive_from_track_hz - fabs(drive)) < OF_DRIVE * fabs(drive);
     (void)fprintf(out, "  %-24s %lld, of which %lld are lost; ", "frames", (long long)m->frames,
                   (long long)m->lost);
     if (isnan(m->fps))
         (void)fputs("no clock\n", out);
-    else if (option_value(given, "drive"))
+    else if (checked)
         (void)fprintf(out, "%.6g a second\n", m->fps);
     else
-        (void)fprintf(out, "all rates rest on the %.6g a second that %s (--drive checks them)\n", m->fps,
-                      option_value(given, "fps") ? "were given" : "the file's clock says");
+        (void)fprintf(out, "all rates rest on the %.6g a second that %s (--drive %s them)\n", m->fps,
+                      option_value(given, "fps") ? "were given" : "the file's clock says",
+                      isnan(drive) ? "checks" : "could not check");
 }
 
-static void print_measurement(FILE *out, const fst_measurement *m, const arguments *given)
+static void print_measurement(FILE *out, const fst_measurement *m, const arguments *given, double drive)
 {
     print_length(out, "<r>", m->mean_r, m->mean_r_error, m);
     print_length(out, "delta r", m->std_r, m->std_r_error, m);
@@ -83,7 +88,7 @@ static void print_measurement(FILE *out, const fst_measurement *m, const argumen
     print_value(out, "drive, from the track", m->drive_from_track_hz, m->drive_from_track_hz_error, "Hz");
     print_value(out, "tilt of the camera", m->tilt_deg, m->tilt_deg_error, "degrees");
     (void)fprintf(out, "  %-24s %.6g, %.6g %s\n", "centre", m->centre[0], m->centre[1], m->length_unit);
-    print_frames(out, m, given);
+    print_frames(out, m, given, drive);
     for (int i = 0; i < m->warning_count; ++i)
         (void)fprintf(out, "  warning: %s\n", m->warnings[i]);
 }
@@ -187,7 +192,7 @@ static void print_track(const job *j, int index)
         if (m->reasons[bead][0])
             (void)fprintf(j->out, "  not measured: %s\n", m->reasons[bead]);
         else
-            print_measurement(j->out, &m->beads[bead], j->given);
+            print_measurement(j->out, &m->beads[bead], j->given, j->drive_count > 0 ? j->what.drive : NAN);
     }
     for (int i = 0; i < m->pair_count; ++i)
         print_pair(j->out, &m->pairs[i], m->beads[0].length_unit);

@@ -189,7 +189,8 @@ static void correct_clock(measure_work *work, double factor)
     track->fps = fps;
 }
 
-/* Look for a clock under which drive and track agree.  Returns 1 where one was found and set. */
+/* Look for a clock under which drive and track agree.  Returns 1 where one was found and set, -1 where the clock is said to be
+ * wrong, but stays. */
 static int find_clock(measure_work *work, double drive, int filmed, measure_drive *found,
                       fst_measurement *measured)
 {
@@ -245,7 +246,7 @@ static int find_clock(measure_work *work, double drive, int filmed, measure_driv
                      "%.5g Hz, which a drive of %.5g Hz does not make; %.5g frames a second would agree, but "
                      "cameras have no such rate, so the file's %.5g were kept",
                      work->peak, fabs(work->bead), drive, stayed, work->fps);
-    return 0;
+    return isfinite(stayed) && timed ? -1 : 0;
 }
 
 /* ---------------------------------------------------------------- cases */
@@ -474,8 +475,9 @@ fst_status measure_find_drive(measure_work *work, const fst_measure_options *opt
         agreed = by_drive(work, drive, filmed, found, measured);
     if (known && !agreed)
         agreed = find_clock(work, drive, filmed, found, measured);
-    if (!agreed)
+    if (agreed != 1)
         by_itself(work, filmed, found, measured);
+    found->clock_wrong = agreed < 0;
     look_for_aliases(work, known ? drive : NAN, filmed, found, measured);
     fst_status status = found->motion == FST_MOTION_TURNING ? measure_refine_motion(work, error) : FST_OK;
     if (status == FST_OK && found->clock_follows)

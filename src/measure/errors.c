@@ -22,7 +22,7 @@
 #include "base/error.h"
 #include "base/festoons.h"
 
-enum { LEAST_TURNS = 3, MANY_TURNS = 8, DRAWS = 800 };
+enum { LEAST_TURNS = 3, MANY_TURNS = 8, DRAWS = 800, LAST_REPEATED = 8 };
 
 /* What of the variance of r may be hidden before there is none. */
 #define MOST_HIDDEN 0.5
@@ -32,6 +32,7 @@ enum { R0, VARIANCE, BEAD, F0, TILT_C, TILT_S, CENTRE_X, CENTRE_Y, QUANTITIES };
 
 typedef struct turn_sums {
     size_t count;
+    double repeated; /* the variance of errors of places that each turn repeats, which turns do not tell */
     double (*sum)[QUANTITIES]; /* influences, turn by turn */
 } turn_sums;
 
@@ -183,6 +184,45 @@ static void variances(const measure_work *work, const turn_sums *turns, double v
     }
 }
 
+/* ---------------------------------------------------------------- what each turn repeats */
+
+/* The residuals of r of a bead that goes round on one circle have harmonics of its angle: it meets the same pixels in each
+ * turn.  Such errors have a second harmonic too, which is taken for a tilt, and a mean.  Of their amplitudes A_k those with
+ * k from 3 to 8 are seen; of a smooth error k A_k is about the same for all, which gives that of k = 2: its variance is
+ * returned, with what chance gives of so few.  NAN: the frame rate shows none of them. */
+static double repeated_variance(const measure_work *work)
+{
+    double row[MEASURE_MOST_COLUMNS], sum = 0.0, part = 0.0;
+    measure_regression fit;
+    const int n = work->radial.columns, most = n + 2 * (LAST_REPEATED - 2);
+    measure_regression_begin(&fit, most);
+    for (size_t i = 0; i < work->count; ++i) {
+        (void)measure_radial_row(work, i, row);
+        for (int k = 3, at = n; at < most; ++k, at += 2) {
+            row[at] = cos(k * work->alpha[i]);
+            row[at + 1] = sin(k * work->alpha[i]);
+        }
+        measure_regression_add(&fit, row, work->r_off[i]);
+    }
+    measure_regression_solve(&fit);
+    for (int at = n; at < most; ++at) {
+        const double k = 3 + (at - n) / 2, c = fit.coefficient[at];
+        sum += c * c; /* 0 where it was dropped */
+        part += fit.dropped[at] ? 0.0 : 4.0 / (k * k);
+    }
+    return part > 0.0 ? sum / part : NAN;
+}
+
+/* Errors that each turn repeats move the mean of r, centre and tilt. */
+static void add_repeated(const measure_work *work, const turn_sums *turns, double variance[QUANTITIES])
+{
+    const double r0 = work->radial.coefficient[0];
+    for (int q = 0; q < QUANTITIES; ++q)
+        variance[q] += q == R0 || q >= CENTRE_X     ? turns->repeated
+                       : q == TILT_C || q == TILT_S ? turns->repeated / (r0 * r0)
+                                                    : 0.0;
+}
+
 /* ---------------------------------------------------------------- what the film hides */
 
 /* Whether the harmonic k of r cannot be seen: the film shows it in the place of another one, or of the mean, or
@@ -292,6 +332,7 @@ static double take_tilt(const measure_work *work, const turn_sums *turns, const 
         square += sum * sum;
     }
     *of_r0 = turns->count < MANY_TURNS ? fmax(square, white_sum(work, along)) : square;
+    *of_r0 += 2.0 * turns->repeated;
     return sigma;
 }
 
@@ -323,9 +364,12 @@ static void take_radius(const measure_work *work, const turn_sums *turns, const 
     const double spread = sqrt(variance[VARIANCE]), upper = sqrt(fmax(0.0, waves) + spread);
     measured->std_r_error =
         waves > 2.0 * spread ? spread / (2.0 * sqrt(waves)) : upper - measured->std_r / factor;
-    if (harmonics == 1 && isfinite(spread)) /* no line was found: one of this size would not have been */
+    if (harmonics == 1 && isfinite(spread)) { /* no line was found: one of this size would not have been */
         measured->std_r_error = fmax(
             measured->std_r_error, sqrt(2.0 * square * (log((double)work->count) + 6.9) / (double)work->count));
+        /* What hangs together without a line may be errors of places, which compression makes too. */
+        measured->std_r_error = hypot(fmax(measured->std_r_error, measured->std_r), work->unsure);
+    }
     measured->std_r_error = sqrt(measured->std_r_error * measured->std_r_error +
                                  measured->std_r * measured->std_r * systematic * systematic);
     if (spread > MOST_HIDDEN * waves && is_any_hidden(work)) {
@@ -400,10 +444,12 @@ fst_status measure_find_errors(const measure_work *work, const measure_drive *dr
     if (status != FST_OK)
         return status;
     variances(work, &turns, variance, &covariance);
+    turns.repeated = work->f0 > 0 ? 0.0 : repeated_variance(work);
+    add_repeated(work, &turns, variance);
     if (work->f0 > 0)
         add_hidden(work, variance);
     /* Rates of cameras, as 239.76 and 240, are too near for a short film to choose between. */
-    if (drive->clock_set && turns.count < MANY_TURNS)
+    if (drive->clock_wrong || (drive->clock_set && turns.count < MANY_TURNS))
         variance[BEAD] = variance[F0] = NAN;
     /* A drift too small to be seen is mostly a slope, which moves the rate by as much as chance does. */
     variance[BEAD] *= work->first > 0 ? 2.0 : 1.0;

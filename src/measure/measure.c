@@ -264,6 +264,8 @@ fst_status fst_measure_track(fst_track *track, const fst_measure_options *option
         status = fst_fail(error, FST_BAD_INPUT, "", "a track of %zu frames: nothing can be measured of it",
                           track->rows);
     if (status == FST_OK)
+        status = measure_forget_slowed_clock(track, measured, error);
+    if (status == FST_OK)
         status = measure_work_begin(&work, track, error);
     if (status != FST_OK)
         return status;

@@ -1,5 +1,6 @@
 /* work.h - a track while it is measured: what is known of its motion so far.
  *
+ *   clock.c     whether the film is slowed in parts
  *   clean.c     places that no bead can have been at              fst_track --> rows of seen places
  *   geometry.c  centre, tilt, rate of turning, festoons           rows --> r, alpha, and a model of both
  *   winding.c   how often the bead goes round, from place to place
@@ -42,11 +43,13 @@ typedef struct measure_work {
     int skipped[MEASURE_HARMONICS]; /* 0: the harmonic can be seen; 1: the frame rate hides it; 1 + k: it shows
                                        it in the place of the k-th */
     double peak;                    /* the strongest line of r; 0: none beyond the noise */
-    int half;                       /* there is a line at half that frequency too */
-    const fst_progress *progress;   /* NULL: nobody is told */
-    double rounds;                  /* of the regression so far */
-    double gain;                    /* by how much r oscillates more since an exposure was undone */
-    double exposure;                /* that was undone, 0 if none */
+    double
+        unsure; /* the amplitude of a line that may be but errors of places, which repeat in each turn; 0: none */
+    int half;   /* there is a line at half that frequency too */
+    const fst_progress *progress; /* NULL: nobody is told */
+    double rounds;                /* of the regression so far */
+    double gain;                  /* by how much r oscillates more since an exposure was undone */
+    double exposure;              /* that was undone, 0 if none */
     measure_regression radial, angular;
 } measure_work;
 
@@ -54,6 +57,9 @@ fst_status measure_work_begin(measure_work *work, fst_track *track, fst_error *e
 void measure_work_free(measure_work *work);
 /* Take the rows of the track from work->first on that are seen. */
 void measure_work_take(measure_work *work);
+
+/* Where a film is slowed in parts, take its clock away from the track, with a warning. */
+fst_status measure_forget_slowed_clock(fst_track *track, fst_measurement *measured, fst_error *error);
 
 /* Mark places far outside of all others, or far from both neighbours by how fast the bead moves; returns how
  * many. */
@@ -124,6 +130,7 @@ typedef struct measure_drive {
     int standing;      /* festoons may look like the mean of r, or like a tilt */
     int bead_folded;   /* so may the bead's own rate be */
     int clock_set;     /* the clock was corrected */
+    int clock_wrong;   /* it is wrong, and was not corrected */
     int clock_follows; /* the file has no clock, and the drive gave it one */
 } measure_drive;
 

@@ -1,13 +1,15 @@
 """What festoon measure writes: tables of points that festoon's other commands read, figures, the path of a scene laid over
 a track; measured points over sweeps and branches with chi^2; and the tracks that tools/blender-export.py makes.
 
-tests: measure/json.c measure/figure_measure.c measure/figure_points.c measure/point_curves.c follow/overlay.c measure/points.c"""
+tests: measure/json.c measure/figure_measure.c measure/figure_points.c measure/point_curves.c follow/overlay.c measure/points.c measure/clock.c"""
 
 import csv
 import importlib.util
+import itertools
 import json
 import math
 import os
+import random
 import re
 import shutil
 import subprocess
@@ -366,8 +368,40 @@ class Readings(Program):
         """A bead of four festoons is not one of S2 in a film of 800 frames a second."""
         found = self.measured(tracks.own(tracks.places(bead=3.5, drive=10.7)), "--drive", "12Hz")
         self.assertAlmostEqual(found["fps"], 240.0, places=3)
-        self.assert_covers(found, "bead_frequency_hz", -3.5)
+        self.assertAlmostEqual(found["bead_frequency_hz"], -3.5, places=3)
         self.assertIn("frame rate", " ".join(found["warnings"]))
+        for key in ("bead_frequency_hz_error", "drive_from_track_hz_error", "radial_frequency_hz_error"):
+            self.assertIsNone(found[key], key)  # frame rate or drive: one of them is wrong
+        self.assertIn("(--drive could not check them)",
+                      self.festoon("measure", self.path("film.csv"), "--drive", "12Hz").stdout)
+
+    def test_slowed_in_parts(self):
+        """Of a film slowed in its middle frames are the clock; lost frames, jitter, and a camera that takes fewer frames for a
+        while leave a clock that is right."""
+        rows, chance = tracks.places(), random.Random(5)
+        lines = tracks.own(rows).splitlines()
+
+        def timed(steps, kept=lambda i: True):
+            times = itertools.accumulate(steps, initial=0.0)
+            cells = [(t, line.split(",")) for t, line in zip(times, lines[1:]) if line]
+            return "\n".join(lines[:1] + [",".join([str(n), f"{t:.7f}", *c[2:]])
+                                          for n, (t, c) in enumerate(x for i, x in enumerate(cells) if kept(i))]) + "\n"
+
+        even = [1 / 240] * (len(rows) - 1)
+        slowed = timed([s * (8 if 200 <= i < 500 else 1) for i, s in enumerate(even)])
+        found = self.measured(slowed)
+        self.assertIn("slowed in parts", found["warnings"][0])
+        for key in ("fps", "bead_frequency_hz", "bead_frequency_hz_error", "drive_from_track_hz"):
+            self.assertIsNone(found[key], key)
+        self.assert_covers(found, "festoons", tracks.FESTOONS)
+        found = self.measured(slowed, "--drive", f"{tracks.DRIVE}Hz")
+        self.assert_covers(found, "bead_frequency_hz", -tracks.BEAD)
+        self.assertAlmostEqual(found["fps"], 240.0, delta=0.1)
+        self.assert_covers(self.measured(slowed, "--fps", "240"), "bead_frequency_hz", -tracks.BEAD)
+        for text in (timed(even, lambda i: i % 7), timed(even, lambda i: i % 2 or not 200 <= i < 500),
+                     timed([s * (0.7 + 0.6 * chance.random()) for s in even]),
+                     timed([s * (0.4 if i % 2 else 1.6) for i, s in enumerate(even)])):
+            self.assertNotIn("slowed", " ".join(self.measured(text)["warnings"]))
 
     def test_folded_line_without_a_drive(self):
         """17.2 Hz at 30 frames a second look like 12.8 Hz: both readings are told, and neither is a result."""
