@@ -457,6 +457,9 @@ fst_status measure_find_errors(const measure_work *work, const measure_drive *dr
         if (drive->standing || work->drifts || isinf(variance[R0]))
             variance[q] = NAN;
     take_radius(work, &turns, variance, slow, measured);
+    /* Of a bead that need not librate at all, compression makes lines of its own. */
+    if (drive->motion == FST_MOTION_LOCKED && measured->std_r < MEASURE_OF_PIXELS * measured->mean_r)
+        measured->std_r_error = fmax(measured->std_r_error, measured->std_r);
     take_rates(work, drive, variance, covariance, measured);
     for (int i = 0; i < 2; ++i) {
         measured->centre[i] = work->centre[i];

@@ -28,9 +28,6 @@ enum { LEAST_ROWS = 16, MOST_ROUNDS = 60, LEAST_TURNS = 3 };
 
 /* A line is small beside another one where it has no more than this part of its amplitude. */
 #define HIDDEN (1.0 / 3.0)
-/* What of a radius the centre of a bead may be off by in the same way in each turn: a tenth of a pixel of a path that is 100
- * pixels wide.  Festoons are four times that up to a drive of 30 Hz. */
-#define OF_PIXELS 2e-3
 
 /* ---------------------------------------------------------------- memory */
 
@@ -512,7 +509,7 @@ static fst_status find_peak(measure_work *work, fst_error *error)
     double sum[2];
     measure_wave(&radii, line.frequency, sum);
     const double size = 2.0 * sqrt(fst_dot(sum, sum, 2)) / (double)work->count;
-    if (size < OF_PIXELS * work->radial.coefficient[0] && repeats_each_turn(work, line.frequency))
+    if (size < MEASURE_OF_PIXELS * work->radial.coefficient[0] && repeats_each_turn(work, line.frequency))
         work->unsure = size;
     else
         work->peak = line.frequency;

@@ -23,6 +23,10 @@ enum { MEASURE_HARMONICS = FST_WAVE_LIMIT };
 /* Columns of the model of r: the constant, the harmonics of f0 (cos, sin each), then these. */
 enum { MEASURE_CENTRE_X, MEASURE_CENTRE_Y, MEASURE_TILT_C, MEASURE_TILT_S, MEASURE_SLOPE, MEASURE_GEOMETRY };
 
+/* What of a radius the centre of a bead may be off by in the same way in each turn: a tenth of a pixel of a path that is 100
+ * pixels wide.  Festoons are four times that up to a drive of 30 Hz. */
+#define MEASURE_OF_PIXELS 2e-3
+
 typedef struct measure_work {
     fst_track *track;
     size_t first;          /* row of the track from which the motion has settled */
