@@ -163,7 +163,9 @@ static fst_status grow(fit_film *f, const double *windows, double *v, double *le
         if (w == 0)
             status = find_phases(f, error);
         if (status == FST_OK)
-            status = fit_film_solve(f, v, r, error);
+            status = fit_film_solve(f, v, NULL, error);
+        if (status == FST_OK)
+            status = fit_film_residuals(f, v, r, error);
         if (status == FST_OK && f->contrary != 0) /* then it will hardly become nearer */
             status = check_path(f, r, error);
     }

@@ -178,7 +178,7 @@ export default {
         cellsMost: "diese Zeile hat mehr als {n} Zellen, mehr als jede Tabelle, die hier gelesen wird",
     },
     words: {
-        choose: "zur Wahl stehen {list}", nearest: "am ähnlichsten ist {near}", nearestOf: "am ähnlichsten ist {near} (zur Wahl stehen: {list})",
+        choose: "zur Wahl stehen {list}", nearest: "am ähnlichsten ist {near}", noneNear: "kein Name ist ähnlich", nearestOf: "am ähnlichsten ist {near} (zur Wahl stehen: {list})",
         or: "{one} oder {other}", one: "einen Wert", atLeast: "mindestens {n}", aboveZero: "einen Wert über 0", aboveMu: "einen Wert über friction.mu", severalBeads: "mehrere in einer Liste von Kugeln",
         oneBead: "1 Kugel", beads: "{n} Kugeln", onePart: "1 Teil", parts: "{n} Teile", oneSample: "1 Messpunkt", samples: "{n} Messpunkte",
         cuboid: "ein Quader", cylinder: "ein Zylinder", sphere: "eine Kugel", dipole: "ein Dipol",

@@ -193,7 +193,7 @@ export default {
         cellsMost: "this line has more than {n} cells: no table that is read here has",
     },
     words: {
-        choose: "choose one of {list}", nearest: "the nearest is {near}", nearestOf: "the nearest is {near} (choices: {list})",
+        choose: "choose one of {list}", nearest: "the nearest is {near}", noneNear: "no name is like it", nearestOf: "the nearest is {near} (choices: {list})",
         or: "{one} or {other}", one: "one", atLeast: "at least {n}", aboveZero: "one above 0", aboveMu: "one greater than friction.mu", severalBeads: "several, in a list of beads",
         oneBead: "1 bead", beads: "{n} beads", onePart: "1 part", parts: "{n} parts", oneSample: "1 sample", samples: "{n} samples",
         cuboid: "cuboid", cylinder: "cylinder", sphere: "sphere", dipole: "dipole",

@@ -178,7 +178,7 @@ export default {
         cellsMost: "esta línea tiene más de {n} celdas: ninguna tabla que aquí se lee las tiene",
     },
     words: {
-        choose: "elige entre {list}", nearest: "la más parecida es {near}", nearestOf: "la más parecida es {near} (opciones: {list})",
+        choose: "elige entre {list}", nearest: "la más parecida es {near}", noneNear: "ningún nombre se le parece", nearestOf: "la más parecida es {near} (opciones: {list})",
         or: "{one} o {other}", one: "un valor", atLeast: "al menos {n}", aboveZero: "un valor mayor que 0", aboveMu: "un valor mayor que friction.mu", severalBeads: "varias, en una lista de bolas",
         oneBead: "1 bola", beads: "{n} bolas", onePart: "1 pieza", parts: "{n} piezas", oneSample: "1 punto", samples: "{n} puntos",
         cuboid: "un bloque", cylinder: "un cilindro", sphere: "una esfera", dipole: "un dipolo",

@@ -178,7 +178,7 @@ export default {
         cellsMost: "cette ligne a plus de {n} cellules : aucun tableau lu ici n’en a autant",
     },
     words: {
-        choose: "choisissez entre {list}", nearest: "le plus proche est {near}", nearestOf: "le plus proche est {near} (choix : {list})",
+        choose: "choisissez entre {list}", nearest: "le plus proche est {near}", noneNear: "aucun nom n’y ressemble", nearestOf: "le plus proche est {near} (choix : {list})",
         or: "{one} ou {other}", one: "une valeur", atLeast: "au moins {n}", aboveZero: "une valeur au-dessus de 0", aboveMu: "une valeur au-dessus de friction.mu", severalBeads: "plusieurs, dans une liste de billes",
         oneBead: "1 bille", beads: "{n} billes", onePart: "1 pièce", parts: "{n} pièces", oneSample: "1 point", samples: "{n} points",
         cuboid: "un pavé", cylinder: "un cylindre", sphere: "une sphère", dipole: "un dipôle",

@@ -178,7 +178,7 @@ export default {
         cellsMost: "这一行的单元格多于 {n} 个：这里读的表都没有这么多",
     },
     words: {
-        choose: "可选 {list}", nearest: "最接近的是 {near}", nearestOf: "最接近的是 {near}（可选：{list}）",
+        choose: "可选 {list}", nearest: "最接近的是 {near}", noneNear: "没有相近的名称", nearestOf: "最接近的是 {near}（可选：{list}）",
         or: "{one} 或 {other}", one: "一个值", atLeast: "至少 {n}", aboveZero: "大于 0 的值", aboveMu: "大于 friction.mu 的值", severalBeads: "小球列表中的几个",
         oneBead: "1 个小球", beads: "{n} 个小球", onePart: "1 个部件", parts: "{n} 个部件", oneSample: "1 个点", samples: "{n} 个点",
         cuboid: "长方体", cylinder: "圆柱", sphere: "球", dipole: "偶极子",
