@@ -119,7 +119,8 @@ def test_units_are_those_of_each_point(tmp_path, axis):
     if isinstance(s, fs.Sweep):
         pytest.importorskip("matplotlib")
         line = s.plot("mean_friction_power", units="lab", x="frequency" if s.shape[0] > 1 else None, kind="curves").lines[0]
-        assert line.get_ydata() == pytest.approx(s.lab.mean_friction_power[0])
+        shown = line.get_ydata()  # with a gap where the regime changes
+        assert shown[~np.isnan(shown)] == pytest.approx(s.lab.mean_friction_power[0])
 
 
 @pytest.mark.parametrize("axes, scene, carried", [

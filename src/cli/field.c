@@ -13,8 +13,7 @@ static const option options[] = {
      "in l or with a unit, above the magnet's mid-plane (real magnets: reference plane); otherwise at the "
      "bead's centre"},
     {"time", '\0', "T",
-     "the field at a point after this time (s), of all that makes one, on the laboratory's axes; not of "
-     "figures"},
+     "the field at a point after this time (s), of all that makes one, on the laboratory's axes"},
     {"output", 'o', "FIG", "draw the map of the field to FIG.svg, .pdf or .png"},
     {"quantity", '\0', FST_WORDS(FST_FIELDS),
      "what the map shows: |B| (the default), a component of B, or the force or the load of a bead"},

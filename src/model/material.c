@@ -41,6 +41,13 @@ int fst_bead_contradiction(const fst_params *params, char *sentence, size_t size
         (params->bead_remanence == 0.0 || params->bead_moment == 0.0))
         return snprintf(sentence, size, "bead.%s is 0: the bead feels no magnet",
                         params->bead_remanence == 0.0 ? "remanence" : "moment");
+    if (params->friction_law == FST_FRICTION_COULOMB && params->contact_patch != FST_PATCH_POINT &&
+        params->contact_radius >= params->bead_radius)
+        return snprintf(
+            sentence, size,
+            "contact.radius is %g mm and bead.radius %g mm: a real disc of contact is a small part of the "
+            "bead's surface",
+            1e3 * params->contact_radius, 1e3 * params->bead_radius);
     if (!isnan(params->model_eps)) /* a scaled bead, whose radius in metres plays no part */
         return 0;
     if (!(density >= LIGHTEST && density <= HEAVIEST))

@@ -279,17 +279,11 @@ static fst_status validate(const fst_params *params, fst_error *error)
                         "friction.mu_static = %g is less than friction.mu = %g: friction at rest is at least "
                         "as strong as sliding friction",
                         params->friction_mu_static, params->friction_mu);
-    const int disc = params->friction_law == FST_FRICTION_COULOMB && params->contact_patch != FST_PATCH_POINT;
-    if (disc && isnan(params->contact_radius) && isnan(params->contact_modulus))
+    if (params->friction_law == FST_FRICTION_COULOMB && params->contact_patch != FST_PATCH_POINT &&
+        isnan(params->contact_radius) && isnan(params->contact_modulus))
         return fst_fail(error, FST_BAD_INPUT, "contact.patch",
                         "contact.patch needs the size of the disc: give contact.radius, or contact.modulus, "
                         "from which the radius follows with the load");
-    if (disc && params->contact_radius >= params->bead_radius)
-        return fst_fail(
-            error, FST_BAD_INPUT, "contact.radius",
-            "contact.radius = %g mm is not less than bead.radius = %g mm: the disc of contact is a small "
-            "part of the bead's surface",
-            1e3 * params->contact_radius, 1e3 * params->bead_radius);
     const char *length = isnan(params->run_duration) ? "run.periods" : "run.duration";
     if (!(fst_run_discard(params) < fst_run_periods(params)))
         return fst_fail(error, FST_BAD_INPUT, "run.discard",
