@@ -421,7 +421,8 @@ FST_API fst_status fst_figure_sweep(const char *path, const fst_sweep_figure *op
 
 /* Lay up to FST_CHARTS_OVER sweeps and branches over one parameter over each other, or as many trajectories, in one
  * figure, whose key says what differs between their scenes, or names the files where nothing does.  `trajectories` and
- * `sweeps` (NULL: the defaults) say what of each is shown, `observable` (NULL: chosen) what of a branch.
+ * `sweeps` (NULL: the defaults) say what of each is shown, `observable` what of a branch (NULL: those keys of `sweeps` that
+ * it has, or chosen).
  * FST_BAD_INPUT: files that have no axis in common, or the regime as a colour beside other keys. */
 enum { FST_CHARTS_OVER = 8 };
 FST_API fst_status fst_figure_over(const char *const *paths, int count, const fst_figure_options *trajectories,

@@ -209,11 +209,11 @@ def over(
     kind
         Of trajectories: path, time, section or ramp.
     keys
-        Columns of trajectories, or keys of sweeps.
+        Columns of trajectories, or keys of sweeps and branches.
     units
         "given", "lab", "scaled" or "si".
     observable
-        What is shown of branches.
+        What is shown of branches; "": the keys.
     at
         Values of axes of sweeps, as of `sweep`.
     **given

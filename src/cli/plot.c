@@ -251,9 +251,6 @@ static fst_status plot_several(const arguments *given, const char *to, fst_error
     fst_sweep_figure sweeps;
     fst_figure_options trajectories = fst_default_figure_options();
     char words[KEYS_SIZE];
-    int branches = 0;
-    for (int i = 0; i < given->operand_count; ++i)
-        branches += ends_in(given->operands[i], ".json");
     fst_status status =
         refuse_others(given, "kind|quantity|only|units|frame|from|to|zoom", "several files", error);
     if (status == FST_OK)
@@ -265,8 +262,8 @@ static fst_status plot_several(const arguments *given, const char *to, fst_error
     for (int i = 0; i < FST_FIGURE_KEYS; ++i)
         trajectories.keys[i] = sweeps.keys[i];
     if (status == FST_OK)
-        status = fst_figure_over(given->operands, given->operand_count, &trajectories, &sweeps,
-                                 branches ? sweeps.keys[0] : NULL, to, error);
+        status =
+            fst_figure_over(given->operands, given->operand_count, &trajectories, &sweeps, NULL, to, error);
     if (status == FST_OK)
         tell_written(to, "");
     return status;

@@ -4,6 +4,7 @@
 
 #include <festoon/festoon_tools.h>
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -93,6 +94,26 @@ static int all_agree(const fst_params *const *scenes, int count, int index)
     return i == count;
 }
 
+/* Whether a key in which scenes differ counts for one of them: not friction.mu where friction is viscous, whose runs are the
+ * same with the values of the others. */
+static int counts(const fst_params *const *scenes, int count, int one, int index)
+{
+    const fst_param_info *row = fst_param_at(index);
+    for (int i = 0; i < count; ++i) {
+        char value[VALUE];
+        fst_params changed = *scenes[one];
+        if (agree(scenes[one], scenes[i], index))
+            continue;
+        const fst_status status = fst_params_get(scenes[i], index, value, sizeof value)
+                                      ? fst_params_set(&changed, row->key, value, NULL)
+                                  : isnan(row->initial) ? fst_params_unset(&changed, row->key, NULL)
+                                                        : FST_BAD_INPUT; /* it is given in its other form */
+        if (status != FST_OK || fst_params_changes(scenes[one], &changed) != FST_CHANGE_NOTHING)
+            return 1;
+    }
+    return 0;
+}
+
 void fst_caption_differences(const fst_params *const *scenes, int count, const char *const *shown,
                              int shown_count, char (*names)[FST_CAPTION_SIZE], char *same, size_t size)
 {
@@ -109,7 +130,8 @@ void fst_caption_differences(const fst_params *const *scenes, int count, const c
             int all = 1;
             for (int i = 0; i < count; ++i) {
                 used[i] = strlen(names[i]);
-                all &= tell(scenes[i], k, names[i], FST_CAPTION_SIZE, 0, LONGEST);
+                all &=
+                    !counts(scenes, count, i, k) || tell(scenes[i], k, names[i], FST_CAPTION_SIZE, 0, LONGEST);
             }
             for (int i = 0; i < count && !all; ++i)
                 names[i][used[i]] = '\0'; /* told of all or of none */

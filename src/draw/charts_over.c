@@ -56,21 +56,21 @@ static fst_chart_panel *panel_for(fst_chart_panel *panels, int *count, const fst
     return &panels[(*count)++];
 }
 
-/* Whether a curve with this title is in the key already. */
-static int is_named(const fst_chart_panel *panels, int count, const char *title)
-{
-    for (int p = 0; p < count; ++p)
-        for (int c = 0; c < panels[p].curve_count; ++c)
-            if (same_text(panels[p].curves[c].title, title))
-                return 1;
-    return 0;
-}
-
 static int has_point(const fst_chart_curve *curve)
 {
     for (size_t i = 0; i < curve->count; ++i)
         if (isfinite(curve->x[i]) && isfinite(curve->y[i]))
             return 1;
+    return 0;
+}
+
+/* Whether a curve with this title is in the key already. */
+static int is_named(const fst_chart_panel *panels, int count, const char *title)
+{
+    for (int p = 0; p < count; ++p)
+        for (int c = 0; c < panels[p].curve_count; ++c)
+            if (same_text(panels[p].curves[c].title, title) && has_point(&panels[p].curves[c]))
+                return 1;
     return 0;
 }
 
@@ -94,6 +94,7 @@ typedef struct taking {
     double
         higher; /* signs, and points at names, stand by so much higher: other charts may have some at the same place */
     const char **name; /* of the chart, until a curve has it */
+    int lacks_main;    /* no curve of the chart is_main() */
 } taking;
 
 static int lift(fst_chart *all, fst_chart_curve *curve, double higher)
@@ -105,8 +106,8 @@ static int lift(fst_chart *all, fst_chart_curve *curve, double higher)
     return y != NULL;
 }
 
-/* Signs at the edge have the name of their chart where no other curve has it. */
-static int name_signs(fst_chart *all, fst_chart_curve *curve, const char *name)
+/* Signs at the edge, and what is unstable, have the name of their chart where no other curve has it. */
+static int name_others(fst_chart *all, fst_chart_curve *curve, const char *name)
 {
     char words[384];
     (void)snprintf(words, sizeof words, "%s%s%s", name ? name : "", name ? ": " : "", curve->title);
@@ -130,10 +131,14 @@ static int take_curves(fst_chart *all, fst_chart_panel *panels, int count, fst_c
             continue;
         if ((how->at_edge || one->tics) && !lift(all, &curve, how->higher))
             return 0;
-        if (how->at_edge && !name_signs(all, &curve, *how->name))
+        if (how->at_edge && !name_others(all, &curve, *how->name))
             return 0;
         if (is_main(&curve)) {
             curve.title = *how->name;
+            *how->name = NULL;
+        } else if (how->lacks_main && *how->name && curve.style == FST_CURVE_DASHED && has_point(&curve)) {
+            if (!name_others(all, &curve, *how->name))
+                return 0;
             *how->name = NULL;
         } else if (curve.title && is_named(panels, count, curve.title)) {
             curve.title = NULL;
@@ -147,9 +152,14 @@ static int take_chart(fst_chart *all, fst_chart_panel *panels, int *count, const
                       const taking *how)
 {
     int good = 1;
+    taking own = *how;
+    own.lacks_main = 1;
+    for (int p = 0; p < one->panel_count; ++p)
+        for (int c = 0; c < one->panels[p].curve_count; ++c)
+            own.lacks_main &= !is_main(&one->panels[p].curves[c]);
     for (int p = 0; p < one->panel_count && good; ++p) {
         fst_chart_panel *panel = panel_for(panels, count, &one->panels[p]);
-        good = take_curves(all, panels, *count, panel, &one->panels[p], how);
+        good = take_curves(all, panels, *count, panel, &one->panels[p], &own);
     }
     return good;
 }
@@ -164,7 +174,7 @@ static int take_signs(fst_chart *all, fst_chart_panel *panels, int *panel_count,
         for (int p = 0; p < charts[i]->panel_count; ++p)
             for (int c = 0; c < charts[i]->panels[p].curve_count; ++c)
                 has_some |= is_at_edge(&charts[i]->panels[p].curves[c]);
-        const taking how = {fst_chart_colour(i), 1, 0.04 * level, &names[i]};
+        const taking how = {fst_chart_colour(i), 1, 0.04 * level, &names[i], 0};
         good = take_chart(all, panels, panel_count, charts[i], &how);
         level += has_some;
     }
@@ -207,7 +217,7 @@ fst_status fst_charts_over(fst_chart *const *charts, const char *const *names, i
         if (made->scene && !(charts[i]->scene && strcmp(made->scene, charts[i]->scene) == 0))
             made->scene = NULL; /* each file has its own */
         status = lay_abscissa(made, charts[0], charts[i], error);
-        const taking how = {fst_chart_colour(i), 0, BESIDE * ((i + 0.5) / count - 0.5), &own[i]};
+        const taking how = {fst_chart_colour(i), 0, BESIDE * ((i + 0.5) / count - 0.5), &own[i], 0};
         if (status == FST_OK)
             good =
                 (own[i] = own_name(made, names[i])) && take_chart(made, panels, &panel_count, charts[i], &how);

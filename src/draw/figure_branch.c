@@ -261,6 +261,32 @@ fst_chart_curve fst_special_curve(fst_special_type type)
                              .style = FST_CURVE_SIGNS};
 }
 
+/* Add the special points to so many lines, and stable ones again over them: a short piece is seen on the signs of its ends.
+ * Returns how many curves there are. */
+static int add_specials(const fst_branch *b, const shown *s, columns *c, fst_chart_curve *curves, int lines)
+{
+    int count = lines;
+    for (int type = 0; type < FST_SPECIAL_COUNT; ++type) {
+        columns *special = &c[2 * SIDES + type];
+        for (size_t i = 0; i < b->special_count; ++i)
+            if ((int)b->specials[i].type == type)
+                fst_columns_put(special, b->specials[i].value, value_of(&b->specials[i].at, s->what));
+        if (special->count == 0)
+            continue;
+        show_in_units(special, s);
+        curves[count] = fst_special_curve((fst_special_type)type);
+        curves[count].x = special->x;
+        curves[count].y = special->y;
+        curves[count++].count = special->count;
+    }
+    for (int k = 0; k < lines && count > lines; ++k)
+        if (curves[k].style == FST_CURVE_LINE) {
+            curves[count] = curves[k];
+            curves[count++].title = NULL;
+        }
+    return count;
+}
+
 /* Returns how many curves there are; -1: no memory. */
 static int add_diagram(fst_chart *chart, const fst_branch *b, const shown *s, columns *c,
                        fst_chart_curve *curves)
@@ -286,20 +312,7 @@ static int add_diagram(fst_chart *chart, const fst_branch *b, const shown *s, co
                                          : FST_COLOUR_BLUE,
                     unstable ? FST_CURVE_DASHED : FST_CURVE_LINE);
     }
-    for (int type = 0; type < FST_SPECIAL_COUNT; ++type) {
-        columns *special = &c[2 * SIDES + type];
-        for (size_t i = 0; i < b->special_count; ++i)
-            if ((int)b->specials[i].type == type)
-                fst_columns_put(special, b->specials[i].value, value_of(&b->specials[i].at, s->what));
-        if (special->count == 0)
-            continue;
-        show_in_units(special, s);
-        curves[count] = fst_special_curve((fst_special_type)type);
-        curves[count].x = special->x;
-        curves[count].y = special->y;
-        curves[count++].count = special->count;
-    }
-    return count;
+    return add_specials(b, s, c, curves, count);
 }
 
 /* The multipliers of orbits with the unit circle, or the eigenvalues of locked states, whose real part decides.
@@ -467,7 +480,7 @@ static fst_status fill(fst_chart *chart, const fst_branch *b, const shown *s, co
                        size_t dot_count)
 {
     columns c[CURVES];
-    fst_chart_curve *curves = fst_chart_keep(chart, CURVES * sizeof *curves);
+    fst_chart_curve *curves = fst_chart_keep(chart, (CURVES + SIDES) * sizeof *curves);
     const size_t most = room_for(b) + FST_LEVITATION_DIRECTIONS * b->point_count + CIRCLE;
     for (int i = 0; i < CURVES; ++i)
         if (!curves || !fst_columns_make(chart, &c[i], most + dot_count))

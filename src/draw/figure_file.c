@@ -194,7 +194,7 @@ static void write_head(fst_figure_file *figure)
     (void)fputs("\nset encoding utf8\nset datafile missing 'nan'\n", script);
     write_terminal(figure);
     (void)fputs("if (figure ne '') set output figure\n"
-                "set border lc rgb '#333333' lw 1\n"
+                "set border back lc rgb '#333333' lw 1\n"
                 "set tics textcolor rgb '#333333' nomirror font ',12'\n"
                 "set style line 101 lc rgb '#e4e4e4' lw 1\n",
                 script);

@@ -15,8 +15,9 @@ typedef struct wanted {
     const fst_figure_options *trajectories;
     fst_sweep_figure sweeps;
     int used[FST_AXIS_LIMIT]; /* by place in sweeps.at: whether a sweep varies that key */
-    const char *observable;   /* of branches; NULL: chosen */
+    const char *observable;   /* of branches; NULL: the keys of sweeps, or chosen */
     int branches;             /* how many there are */
+    int others;               /* there are other files, and these know keys that no branch has */
 } wanted;
 
 /* One file. */
@@ -25,9 +26,11 @@ typedef struct source {
     fst_chart *chart;
     fst_params *scene; /* NULL: the file does not say */
     const char *shown[FST_AXIS_LIMIT];
-    int shown_count; /* keys that the figure shows anyway */
-    char at[192];    /* of a sweep, the values of its other axes */
-    fst_carry carry; /* of a sweep */
+    int shown_count;  /* keys that the figure shows anyway */
+    char at[192];     /* of a sweep, the values of its other axes */
+    fst_carry carry;  /* of a sweep */
+    const char *kind; /* of a branch; NULL: it is none */
+    char lacks[192];  /* of a branch, the keys that it has no value of: ", no std_r" */
 } source;
 
 static fst_status no_memory(fst_error *error)
@@ -48,14 +51,67 @@ static void note_key(source *s, const char *key)
 
 /* ------------------------------------------------------------------ reading */
 
+/* Add the one panel of a chart below those of the file's chart; the former is freed. */
+static fst_status add_panel(source *s, fst_chart *one, fst_error *error)
+{
+    fst_chart *all = s->chart;
+    if (!all) {
+        s->chart = one;
+        return FST_OK;
+    }
+    const size_t count = (size_t)all->panel_count;
+    fst_status status = FST_OK;
+    fst_chart_panel *panels = fst_chart_keep(all, (count + 1) * sizeof *panels);
+    if (strcmp(all->x_label, one->x_label) != 0) {
+        status = fst_fail(error, FST_BAD_INPUT, s->path, "multipliers are drawn alone");
+    } else if (!panels) {
+        status = no_memory(error);
+    } else {
+        memcpy(panels, all->panels, count * sizeof *panels);
+        panels[count] = one->panels[0];
+        all->panels = panels;
+        ++all->panel_count;
+        fst_chart_adopt(all, one);
+    }
+    fst_chart_free(one);
+    return status;
+}
+
+/* A panel for each key that the branch has values of; beside files of another kind it may lack some, but not all. */
+static fst_status take_keys(source *s, const fst_branch *branch, const wanted *w, fst_error *error)
+{
+    const char *own[FST_SWEEP_FIGURE_KEYS] = {w->observable ? w->observable : fst_branch_observable(branch)};
+    const char *const *keys = w->observable || !w->sweeps.keys[0] ? own : w->sweeps.keys;
+    fst_error first = {.where = ""};
+    fst_status status = FST_OK;
+    for (int k = 0; k < FST_SWEEP_FIGURE_KEYS && keys[k] && status == FST_OK; ++k) {
+        const size_t used = strlen(s->lacks);
+        fst_error why = {.where = ""};
+        fst_chart *one;
+        status = fst_chart_of_branch(branch, keys[k], w->sweeps.units, NULL, 0, &one, &why);
+        first = used ? first : why;
+        if (status == FST_OK) {
+            status = add_panel(s, one, &first);
+        } else if (status == FST_BAD_INPUT && w->others) {
+            (void)snprintf(s->lacks + used, sizeof s->lacks - used, ", no %s", keys[k]);
+            status = FST_OK;
+        }
+    }
+    if (status == FST_OK && !s->chart)
+        status = FST_BAD_INPUT;
+    if (status != FST_OK && error)
+        *error = first;
+    return status;
+}
+
 static fst_status take_branch(source *s, const wanted *w, fst_error *error)
 {
     fst_branch branch;
     fst_status status = fst_branch_read(s->path, &branch, error);
     if (status != FST_OK)
         return status;
-    status = fst_chart_of_branch(&branch, w->observable ? w->observable : fst_branch_observable(&branch),
-                                 w->sweeps.units, NULL, 0, &s->chart, error);
+    status = take_keys(s, &branch, w, error);
+    s->kind = fst_branch_kind_name(branch.kind);
     note_key(s, branch.key);
     if (branch.second_key[0])
         note_key(s, branch.second_key);
@@ -122,14 +178,23 @@ static fst_status take(source *s, wanted *w, fst_error *error)
     return is_sweep ? take_sweep(s, w, error) : take_trajectory(s, w, error);
 }
 
+static void add_words(char name[FST_CAPTION_SIZE], const char *between, const char *words)
+{
+    const size_t used = strlen(name);
+    (void)snprintf(name + used, FST_CAPTION_SIZE - used, "%s%s", between, words);
+}
+
 /* A name for each file: what differs, and the file's name where that does not tell it from another. */
 static void name_files(const source *sources, int count, char (*names)[FST_CAPTION_SIZE], char *same,
                        size_t size)
 {
     const fst_params *scenes[FST_CHARTS_OVER];
     const char *shown[FST_CHARTS_OVER * FST_AXIS_LIMIT], *paths[FST_CHARTS_OVER], *slices[FST_CHARTS_OVER];
-    int shown_count = 0;
+    const char *kind = NULL;
+    int shown_count = 0, kinds_differ = 0;
     for (int i = 0; i < count; ++i) {
+        kinds_differ |= kind && sources[i].kind && strcmp(kind, sources[i].kind) != 0;
+        kind = sources[i].kind ? sources[i].kind : kind;
         scenes[i] = sources[i].scene;
         paths[i] = sources[i].path;
         slices[i] = sources[i].at;
@@ -138,11 +203,12 @@ static void name_files(const source *sources, int count, char (*names)[FST_CAPTI
     }
     fst_caption_of_files(scenes, paths, count, shown, shown_count, names, same, size);
     fst_caption_slices(slices, count, names[0], same, size);
-    for (int i = 0; i < count; ++i) { /* runs that were begun where their neighbours ended */
-        const size_t used = strlen(names[i]);
-        if (sources[i].carry != FST_CARRY_NO)
-            (void)snprintf(names[i] + used, FST_CAPTION_SIZE - used, ", %s",
-                           sources[i].carry == FST_CARRY_UP ? "upwards" : "downwards");
+    for (int i = 0; i < count; ++i) {
+        if (sources[i].carry != FST_CARRY_NO) /* runs that were begun where their neighbours ended */
+            add_words(names[i], ", ", sources[i].carry == FST_CARRY_UP ? "upwards" : "downwards");
+        if (kinds_differ && sources[i].kind)
+            add_words(names[i], ", ", sources[i].kind);
+        add_words(names[i], "", sources[i].lacks);
     }
 }
 
@@ -160,23 +226,23 @@ static fst_status draw(const source *sources, int count, const wanted *w, const 
     }
     fst_status status = fst_charts_over(charts, words, count, same, &all, error);
     if (status == FST_OK)
+        fst_sweep_trim_words(all);
+    if (status == FST_OK)
         status = fst_figure_chart_as(out, all, w->sweeps.title ? w->sweeps.title : w->trajectories->title,
                                      w->sweeps.size[0] > 0.0 ? w->sweeps.size : w->trajectories->size, error);
     fst_chart_free(all);
     return status;
 }
 
-/* Beside a branch a sweep shows the branch's observable, so that they have something in common. */
+/* A branch shows the keys of sweeps, and beside one a sweep shows what the branch does, so that they have something in
+ * common. */
 static void match_keys(const char *const *paths, int count, wanted *w)
 {
     for (int i = 0; i < count; ++i)
         w->branches += is_branch(paths[i]);
-    if (w->branches == 0 || w->branches == count)
-        return;
-    if (!w->observable)
-        w->observable = w->sweeps.keys[0] ? w->sweeps.keys[0] : "mean_r";
-    if (!w->sweeps.keys[0])
-        w->sweeps.keys[0] = w->observable;
+    w->others = w->branches < count;
+    if (w->branches && w->others && !w->sweeps.keys[0])
+        w->sweeps.keys[0] = w->observable ? w->observable : "mean_r";
 }
 
 /* Beside other keys the regime is the colour of a sweep's points, which here tells the files. */

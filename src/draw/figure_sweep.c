@@ -354,6 +354,8 @@ fst_status fst_figure_sweep(const char *path, const fst_sweep_figure *options, c
                      ? family_of(&s, &chart, error)
                      : fst_sweep_curves(&s.table, s.quantities, s.count, &s.slice, 0, &chart, error);
         if (status == FST_OK)
+            fst_sweep_trim_words(chart);
+        if (status == FST_OK)
             status = fst_figure_chart_as(out, chart, options->title, options->size, error);
         fst_chart_free(chart);
     }

@@ -5,10 +5,12 @@
 
 #include "base/error.h"
 #include "draw/caption.h"
+#include "draw/chart.h"
 
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* ------------------------------------------------------------------ units */
@@ -309,6 +311,52 @@ int fst_sweep_result_tics(const char *key, char *tics, size_t size)
     }
     (void)snprintf(tics + strlen(tics), size - strlen(tics), ")");
     return count;
+}
+
+static int occurs(const fst_chart_panel *panel, int place)
+{
+    for (int c = 0; c < panel->curve_count; ++c)
+        for (size_t i = 0; i < panel->curves[c].count && !panel->curves[c].right; ++i)
+            if (fabs(panel->curves[c].y[i] - place) < 0.5)
+                return 1;
+    return 0;
+}
+
+static void trim_words(fst_chart *chart, fst_chart_panel *panel)
+{
+    char tics[256] = "";
+    double low = NAN, high = NAN;
+    for (const char *word = strchr(panel->tics, '\''), *end; word; word = strchr(end + 1, '\'')) {
+        end = strchr(word + 1, '\'');
+        const int place = atoi(end + 1);
+        const size_t used = strlen(tics);
+        if (!occurs(panel, place))
+            continue;
+        (void)snprintf(tics + used, sizeof tics - used, "%s%.*s %d", used ? ", " : "(", (int)(end + 1 - word),
+                       word, place);
+        low = fmin(low, place - 0.5);
+        high = fmax(high, place + 0.5);
+    }
+    (void)snprintf(tics + strlen(tics), sizeof tics - strlen(tics), ")");
+    const char *kept = isfinite(low) ? fst_chart_text(chart, tics) : NULL;
+    if (!kept)
+        return; /* signs alone, or no memory */
+    panel->tics = kept;
+    panel->low = low;
+    panel->high = high;
+}
+
+void fst_sweep_trim_words(fst_chart *chart)
+{
+    const size_t count = (size_t)chart->panel_count;
+    fst_chart_panel *panels = fst_chart_keep(chart, (count + 1) * sizeof *panels);
+    if (!panels)
+        return;
+    memcpy(panels, chart->panels, count * sizeof *panels);
+    chart->panels = panels;
+    for (size_t p = 0; p < count; ++p)
+        if (panels[p].tics && isfinite(panels[p].low))
+            trim_words(chart, &panels[p]);
 }
 
 fst_sweep_quantity fst_sweep_quantity_of(const fst_grid *grid, const char *key, fst_shown_units units)

@@ -343,6 +343,35 @@ class Over(Figures):
         self.assertIn("orbits.json", words(script))
         self.assertTrue(any(14 <= x <= 15 and 19 < y < 22 for x, y in blocks["panel1-curve2"]), blocks)
 
+    def test_a_branch_is_in_each_panel(self):
+        """Whose quantity it has; of others the key says that it has none, and which kinds of branches there are."""
+        self.sweep("f.db", "drive.frequency=13:15:3")
+        for kind in ("counter", "locked"):
+            self.good("branch", "--kind", kind, "--over", "drive.frequency=13.3Hz:13.5Hz", "-o", self.path(f"{kind}.json"))
+        alone = []
+        for key in ("mean_r", "mean_alpha_dot"):
+            script, blocks = self.plot("counter.json", "--quantity", key)
+            alone.append(blocks["panel1-curve1"])
+            order = re.findall(r"data index '(panel1-curve\d)' .* (lines|points)", script)
+            self.assertEqual([style for _, style in order], ["lines", "lines", "points", "lines"])
+            self.assertEqual(blocks[order[-1][0]], alone[-1])  # what is stable is seen on the signs
+            self.assertIn("set border back", script)  # and signs on the frame
+        for first, second in (("f.db", "counter.json"), ("counter.json", "f.db")):
+            script, blocks, _ = self.over(first, second, "--quantity", "regime,mean_r,mean_alpha_dot,std_r")
+            self.assertIn("counter.json, no regime, no std\\_r", words(script))
+            self.assertIn("set ytics ('undecided' 0)\n", script)  # the word that occurs
+            for curve in alone:
+                self.assertEqual(list(blocks.values()).count(curve), 2)
+        for quantity, panels in (("mean_r", 1), ("mean_r,mean_alpha_dot", 2)):
+            script, blocks, _ = self.over("counter.json", "locked.json", "--quantity", quantity)
+            self.assertEqual({name[:6] for name in blocks if name.startswith("panel")}, {f"panel{p + 1}" for p in range(panels)})
+            self.assertIn("counter.json, counter", words(script))
+            self.assertIn("locked.json, locked: unstable", words(script))  # it has no other curve
+        both = ("plot", self.path("counter.json"), self.path("locked.json"), "-o", self.path("no.svg"), "--quantity")
+        for keys, told in (("mean_r,std_r", 'unknown observable "std_r"'), ("mean_r,festoons", "(kind: locked) has a value of festoons"),
+                           ("mean_r,multipliers", "multipliers are drawn alone")):
+            self.assertIn(told, self.refused(*both, keys))
+
     def test_what_is_the_same_stands_below_the_title(self):
         self.good("branch", "--kind", "locked", "--over", "drive.omega=0.05:0.1", "--set", "model.kappa=1.25", "-o",
                   self.path("locked.json"))
