@@ -15,7 +15,7 @@ extern "C" {
 #endif
 
 /* Increased when the same beads give other numbers than before; a sweep goes on only under the same version. */
-#define FST_BEADS_RESULTS_VERSION 4
+#define FST_BEADS_RESULTS_VERSION 5
 
 enum { FST_BEAD_TOUCHES = 36, FST_BEADS_EVENTS = 1000 };
 

@@ -45,7 +45,7 @@ extern "C" {
 /* Increased when the same parameters give other bits than before: the first is the version of the laws viscous
  * and none, the second that of dry friction (coulomb, rolling).  A sweep that was begun by another version is
  * not continued. */
-#define FST_RESULTS_VERSION 14
+#define FST_RESULTS_VERSION 15
 #define FST_DRY_RESULTS_VERSION 19
 
 /* "0.1.0": the version of the library that is running. */

@@ -198,13 +198,13 @@ def _gap_marks(ax: Any, x: Any, states: Any, hidden: Any, level: int, code: str)
 
 
 def _without_outliers(y: Any, states: Any) -> Any:
-    """What is far beyond the values of the motions, as of a bead on its way out, is told by its sign."""
+    """Distances far beyond those of the motions, of which most runs must be, as of a bead on its way out: its sign tells it."""
     gaps = np.isin(states, list(_GAPS))
     motions = y[~gaps & np.isfinite(y)]
-    if not len(motions):
+    if 2 * len(motions) <= len(y):
         return y
     low, high = motions.min(), motions.max()
-    wider = max(high - low, 0.5 * max(abs(low), abs(high)))
+    wider = 2 * max(high - low, 0.5 * max(abs(low), abs(high)))
     return np.where(gaps & ~((y >= low - wider) & (y <= high + wider)), np.nan, y)
 
 
@@ -239,7 +239,7 @@ def _curves(s: Any, y: str, sides: List[_Side], units: str, free: bool, name: Op
         ax.set_yticks(range(len(there)), [REGIMES[int(i)] for i in there])
     states = np.where(s.failed, "failed", np.where(s.computed, s.regime, ""))
     states = np.moveaxis(states, sides[0].along, 0).reshape(len(sides[0].values), -1)[order]
-    for i in range(values.shape[1] if y != "regime" else 0):
+    for i in range(values.shape[1] if y == "mean_r" else 0):
         values[:, i] = _without_outliers(values[:, i], states[:, i])
     lines, marks, before = [], [], sum(len(one.lines) for one in others)
     if len(sides) == 1:

@@ -25,8 +25,21 @@ static const double LITTLE = 1e-4;
 /* A field whose part across the axis is less than this part of it stands along the axis. */
 static const double ALONG = 0.2;
 
-static fst_status look(const fst_beads_table *table, size_t row, double little, moment_in_field *two,
-                       fst_error *error)
+/* How high the plate lies over the magnet's reference plane, from which fields count heights; 0 without a plate. */
+static fst_status find_plate(const fst_params *scene, double *plate, fst_error *error)
+{
+    fst_model *model;
+    const fst_status status = fst_field_model_new(scene, NAN, &model, error);
+    if (status != FST_OK)
+        return status;
+    const fst_groups groups = fst_model_groups(model);
+    *plate = scene->plate_shape == FST_PLATE_NONE ? 0.0 : groups.h - groups.eps;
+    fst_model_free(model);
+    return FST_OK;
+}
+
+static fst_status look(const fst_beads_table *table, size_t row, double plate, double little,
+                       moment_in_field *two, fst_error *error)
 {
     double x[3], v[3], n[3], w[3], place[3], grad[3][3];
     fst_beads_table_vector(table, row, 0, 0, 0, x);
@@ -41,6 +54,7 @@ static fst_status look(const fst_beads_table *table, size_t row, double little, 
             place[i] = x[i] + later * v[i];
             two->n[end][i] = n[i] + later * (w[j] * n[k] - w[k] * n[j]);
         }
+        place[2] += plate;
         status = fst_field_at(&table->scene, table->t[row] + later, place, two->b[end], grad, error);
     }
     return status;
@@ -129,11 +143,12 @@ static fst_status put_angles(const fst_beads_table *table, const fst_figure_part
     double *x = fst_chart_keep(chart, 2 * rows * sizeof *x), *y = fst_chart_keep(chart, 2 * rows * sizeof *y);
     if (!seen || !x || !y)
         return fst_fail(error, FST_NO_MEMORY, "fst_chart_of_beads", "out of memory");
-    for (size_t i = 0; i < rows; ++i) {
-        const fst_status status = look(table, part->first + i, little, &seen[i], error);
-        if (status != FST_OK)
-            return status;
-    }
+    double plate = 0.0;
+    fst_status status = find_plate(&table->scene, &plate, error);
+    for (size_t i = 0; i < rows && status == FST_OK; ++i)
+        status = look(table, part->first + i, plate, little, &seen[i], error);
+    if (status != FST_OK)
+        return status;
     const angle_kind kind = kind_of(&table->scene, seen, rows);
     const size_t count = put_points(seen, rows, kind, little, unit, x, y);
     if (count == 0)

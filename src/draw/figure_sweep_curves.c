@@ -155,18 +155,21 @@ static int add_signs(drawing *d, const double *values, int told)
     return 1;
 }
 
-/* Take away what is far beyond the values of the motions, as of a bead that is on its way out: its sign tells it, and the
- * scale is that of the motions. */
-static void hide_outliers(const drawing *d, double *values)
+/* Take away distances that are far beyond those of the motions, of which most runs must be, as of a bead that is on its
+ * way out: its sign tells it, and the scale is that of the motions. */
+static void hide_outliers(const drawing *d, const char *key, double *values)
 {
     double low = INFINITY, high = -INFINITY;
+    size_t decided = 0;
     for (size_t i = 0; i < d->points; ++i)
         if (d->gaps[i] < 0 && isfinite(values[i])) {
             low = fmin(low, values[i]);
             high = fmax(high, values[i]);
+            ++decided;
         }
-    const double wider = fmax(high - low, 0.5 * fmax(fabs(low), fabs(high)));
-    for (size_t i = 0; i < d->points && low <= high; ++i)
+    const double wider = 2.0 * fmax(high - low, 0.5 * fmax(fabs(low), fabs(high)));
+    const int told = 2 * decided > d->points && strcmp(key, "mean_r") == 0;
+    for (size_t i = 0; i < d->points && told; ++i)
         if (d->gaps[i] >= 0 && !(values[i] >= low - wider && values[i] <= high + wider))
             values[i] = NAN;
 }
@@ -175,7 +178,7 @@ static void hide_outliers(const drawing *d, double *values)
 static int add_line(drawing *d, const double *values, fst_curve_style style)
 {
     const char *key = fst_sweep_state_key(d->table->grid);
-    double *x = fst_chart_keep(d->chart, (4 * d->points + 1) * sizeof *x), *y = x + 2 * d->points;
+    double *x = fst_chart_keep(d->chart, (4 * d->points + 1) * sizeof *x), *y = x ? x + 2 * d->points : NULL;
     size_t count = 0;
     for (size_t i = 0; x && i < d->points; ++i) {
         x[count] = d->x[i];
@@ -232,7 +235,7 @@ static int add_panels(drawing *d, const fst_sweep_quantity *quantities, int coun
         if (!values)
             return 0;
         if (!fst_sweep_names_of(quantities[k].key))
-            hide_outliers(d, values);
+            hide_outliers(d, quantities[k].key, values);
         if (!any_value(values, d->points) && !(plain && d->all_gaps))
             mention_empty(d, quantities[k].label);
         else if (!add_panel(d, &quantities[k], values, regime, style))

@@ -74,11 +74,11 @@ void fst_figure_logarithmic(fst_figure_file *figure, const char *axis, double lo
     static const double mantissas[] = {1.0, 2.0, 5.0};
     const int first = (int)floor(log10(low)), last = (int)floor(log10(high));
     const char *separator = "";
-    const double step = fst_round_step((high - low) / 5.0);
-    const int few = high < 5.0 * low; /* it may have one of 1, 2, 5 or none */
+    const double step = fst_round_step((high - low) / 5.0), start = ceil(low / step - 1e-6);
+    const int few = high < 5.0 * low && high - low > 1e-5 * low; /* it may have one of 1, 2, 5 or none */
     (void)fprintf(figure->script, "set logscale %s\nset %stics (", axis, axis);
-    for (double tic = step * ceil(low / step - 1e-6); few && tic <= 1.000001 * high; tic += step) {
-        (void)fprintf(figure->script, "%s%.6g", separator, tic);
+    for (int i = 0; few && step * (start + i) <= high + 1e-6 * step; ++i) {
+        (void)fprintf(figure->script, "%s%.6g", separator, step * (start + i));
         separator = ", ";
     }
     for (int decade = first; decade <= last && !few; ++decade)

@@ -396,6 +396,7 @@ fst_status fst_fit_track(const fst_params *params, fst_track *track, const fst_f
     int rejected = 0;
     memset(&f, 0, sizeof f);
     memset(&e, 0, sizeof e);
+    memset(&seen, 0, sizeof seen);
     seen.bead_frequency_hz = NAN;
     f.noise = NOISE;
     f.slip_scale = 1.0;

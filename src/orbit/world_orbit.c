@@ -114,11 +114,14 @@ fst_status world_strobe_find(world_strobe *s, const fst_params *params, const do
     lock->modes = s->modes = s->flow.modes;
     fst_error why;
     const fst_status found = beads_lock_correct(s->lapack, &s->repeat, &s->world, lock, &why);
-    return found == FST_NO_CONVERGENCE
-               ? fst_fail(error, found, "orbit", "%s: make run.discard larger, or choose another start",
-                          why.sentence)
-           : found != FST_OK ? fst_fail(error, found, why.where, "%s", why.sentence)
-                             : FST_OK;
+    const int carried = s->world.surrounded && s->world.around.drive.kind == FST_WAVEFORM_WAVE;
+    return found == FST_NO_CONVERGENCE ? fst_fail(error, found, "orbit", "%s: %s", why.sentence,
+                                                  carried ? "a bead that a wave carries along, as most waves "
+                                                            "do, never comes back to where it was; "
+                                                            "festoon run tells its velocity"
+                                                          : "make run.discard larger, or choose another start")
+           : found != FST_OK           ? fst_fail(error, found, why.where, "%s", why.sentence)
+                                       : FST_OK;
 }
 
 void world_multiplier(const beads_lock *lock, double period, int i, double *re, double *im)

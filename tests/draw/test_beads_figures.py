@@ -275,6 +275,14 @@ class Beads(unittest.TestCase):
                 wanted = (math.atan2(row["nY_0"], row["nX_0"]) - field if name == "crossed" else math.acos(row["nZ_0"]))
                 self.assertAlmostEqual(math.remainder(math.radians(angle) - wanted, 2 * math.pi), 0, delta=1e-5, msg=name)
             self.assertEqual(name == "crossed", min(angle for angle, _ in piece) < -10, name)
+        # on a plate, and in a bowl, heights are others than those of the field; a run starts with n along B
+        for shape in ((), ("--set", "plate.shape=bowl", "--set", "plate.bowl_radius=150 mm")):
+            told = run("run", "--set", "world.frame=laboratory", "--set", "run.periods=2", "--set", "run.discard=1", *shape, "-o",
+                       self.folder / "lag.csv")
+            self.assertEqual(told[0], 0, told[2])
+            _, curves = self.plot("--kind", "lag", "--from", 0, name="lag.csv")
+            (_, (piece, *_)), = [curve for some in curves.values() for curve in some if curve[0] == "panel1-curve1"]
+            self.assertAlmostEqual(piece[0][0], 0, delta=1e-6)
 
     def test_every_drive(self):
         """A trajectory is drawn whole, and from one period of the drive to the next, also where the magnet turns back."""
