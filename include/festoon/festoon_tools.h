@@ -442,8 +442,8 @@ typedef struct fst_critical_stretch {
     int runs;
 } fst_critical_stretch;
 
-/* The critical speed: the lowest drive from which on all runs, each from the scene's start, circle against the magnet, for
- * at least another tenth of the drive.  Values are those of `key`, in SI. */
+/* The critical speed: the lowest drive from which on all runs that are decided, each from the scene's start, circle
+ * against the magnet, for at least another tenth of the drive.  Values are those of `key`, in SI. */
 typedef struct fst_critical {
     char key[64];
     int found;        /* 0: there is none in this range, because of `reason`; then `value` is NAN */
@@ -453,7 +453,8 @@ typedef struct fst_critical {
     int special; /* the fst_special_type of the branch's point that it is; -1: of none, it is enclosed by runs */
     fst_regime below, above; /* the outcomes on either side */
     double
-        until; /* the last run that circles against the magnet before one that does otherwise; NAN where not found */
+        until; /* the last run that circles against the magnet before one that does otherwise or is undecided;
+                     NAN where not found */
     double parting,
         parting_error; /* up to here the bead goes with the magnet in all runs; NAN: in none, or in all */
     fst_critical_stretch *stretches; /* of all runs, in order */

@@ -24,7 +24,8 @@ typedef enum {
     FST_ORBIT_LOCKED,    /* no orbit: the bead comes to rest in the turning frame */
     FST_ORBIT_EJECTED,   /* no orbit: it flies away */
     FST_ORBIT_UNSETTLED, /* it settles on no stable orbit in the time that it was given */
-    FST_ORBIT_ROLLS      /* no orbit that attracts: the contact no longer slips, and the start decides */
+    FST_ORBIT_ROLLS,     /* no orbit that attracts: the contact no longer slips, and the start decides */
+    FST_ORBIT_SEVERAL /* it settles on an orbit that closes only after several returns, which is not looked for */
 } fst_orbit_outcome;
 
 /* A periodic orbit of the turning frame. */

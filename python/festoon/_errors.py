@@ -106,6 +106,7 @@ CALLS = {
     "fst_lyapunov_find()": "Bead.lyapunov()",
     "fst_critical_find": "Bead.critical()",
     "fst_locked_find()": "Bead.locked()",
+    "fst_branch_follow()": "Bead.branch()",
     "fst_sweep_export()": "festoon.export()",
     "fst_sweep()": "festoon.sweep()",
     "fst_branch_write()": "Branch.save()",

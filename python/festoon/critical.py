@@ -38,7 +38,7 @@ class Critical(Shown, Told):
         self.special = told["special"]
         #: The regimes on either side.
         self.below, self.above = told["below"], told["above"]
-        #: The last run that circles against the magnet before one that does otherwise; None where none is found.
+        #: The last run that circles against the magnet before one that does otherwise or is undecided; None: none is found.
         self.until = told["until"]
         #: Up to here the bead goes with the magnet in all runs, and the error; None: in none, or in all.
         self.parting, self.parting_error = told["parting"], told["parting_error"]

@@ -27,18 +27,30 @@ static void print_with_error(FILE *out, double value, double error, const char *
     (void)fprintf(out, "%.*f +- %.2g%s", decimals, value, error, unit);
 }
 
-/* "from it on counter-rotating", and up to where, if other outcomes follow. */
+/* "from it on counter-rotating", and up to where, if undecided runs or other outcomes follow. */
 static void print_sides(FILE *out, const fst_critical *c, const char *unit)
 {
-    size_t next = 0;
-    while (next < c->stretch_count && !(c->stretches[next].from > c->until))
+    const fst_critical_stretch *next = c->stretches, *end = next + c->stretch_count;
+    double from = NAN, to = NAN;
+    int undecided = 0;
+    while (next < end && !(next->from > c->until))
         ++next;
     (void)fprintf(out, "\n  below it the bead is %s, from it on", fst_regime_name(c->below));
-    if (next < c->stretch_count)
-        (void)fprintf(out, ", up to %.7g%s, %s; other outcomes from %.7g%s\n", c->until, unit,
-                      fst_regime_name(c->above), c->stretches[next].from, unit);
-    else
-        (void)fprintf(out, " %s\n", fst_regime_name(c->above));
+    if (next < end)
+        (void)fprintf(out, ", up to %.7g%s,", c->until, unit);
+    for (; next < end && (next->regime == FST_REGIME_UNDECIDED || next->regime == c->above); ++next) {
+        if (next->regime == c->above)
+            continue;
+        from = undecided ? from : next->from;
+        to = next->to;
+        undecided += next->runs;
+    }
+    (void)fprintf(out, " %s", fst_regime_name(c->above));
+    if (undecided)
+        (void)fprintf(out, "; undecided runs from %.7g to %.7g%s: %d", from, to, unit, undecided);
+    if (next < end)
+        (void)fprintf(out, "; other outcomes from %.7g%s", next->from, unit);
+    (void)fputs("\n", out);
 }
 
 /* The unit in which speeds are shown; all of `c` are turned into it.  A frequency is one of SI already. */
@@ -127,11 +139,11 @@ const command critical_command = {
     .summary = "From which speed on the bead circles against the magnet",
     .details = "Runs over the range, each from the scene's start, show where the outcome changes; more runs "
                "enclose the lowest\n"
-               "speed from which on all circle against the magnet for at least a tenth more.  With smooth "
-               "friction a special\n"
-               "point of the branch of these orbits gives its digits; with dry friction outcomes alternate "
-               "near the border, and\n"
-               "the list of all runs shows where.\n",
+               "speed from which on all that are decided circle against the magnet for at least a tenth more.  "
+               "With smooth\n"
+               "friction a special point of the branch of these orbits gives its digits; with dry friction "
+               "outcomes alternate\n"
+               "near the border, and the list of all runs shows where.\n",
     .options = options,
     .most_operands = 1,
     .perform = perform,

@@ -58,12 +58,19 @@ const char *option_of_field(const char *field, char text[FIELD_SIZE])
 static const struct {
     const char *function, *command;
 } commands[] = {
-    {"fst_param_at()", "festoon schema"},        {"fst_lyapunov_find()", "festoon lyapunov"},
-    {"fst_locked_find()", "festoon locked"},     {"fst_sweep_export()", "festoon export"},
-    {"fst_sweep()", "festoon sweep -o FILE.db"}, {"fst_branch_write()", "festoon branch -o FILE.json"},
-    {"fst_run_json()", "festoon run --json"},    {"fst_track_options.scale", "--scale"},
-    {"fst_track_options.from", "--from"},        {"fst_track_options.to", "--to"},
-    {"fst_measure_options.drive", "--drive"},    {"fst_sweep_figure.at", "--only KEY=VALUE"},
+    {"fst_param_at()", "festoon schema"},
+    {"fst_lyapunov_find()", "festoon lyapunov"},
+    {"fst_locked_find()", "festoon locked"},
+    {"fst_sweep_export()", "festoon export"},
+    {"fst_sweep()", "festoon sweep -o FILE.db"},
+    {"fst_branch_write()", "festoon branch -o FILE.json"},
+    {"fst_run_json()", "festoon run --json"},
+    {"fst_track_options.scale", "--scale"},
+    {"fst_track_options.from", "--from"},
+    {"fst_track_options.to", "--to"},
+    {"fst_measure_options.drive", "--drive"},
+    {"fst_sweep_figure.at", "--only KEY=VALUE"},
+    {"fst_branch_follow()", "festoon branch --kind counter --over drive.frequency=LO:HI"},
 };
 
 void name_commands(const char *sentence, char *text, size_t size)

@@ -36,15 +36,16 @@
 /* A slower bead is taken for one at rest: the errors of the steps leave it no slower. */
 #define REST (10.0 * SEARCH_TOLERANCE)
 
-enum { PEAKS = 48, RECENT = 20 }; /* RECENT: drive periods */
+enum { PEAKS = 48, RECENT = 20 /* drive periods */, RETURNS = 8 /* after which a motion is seen to close */ };
 
 /* A trajectory that is watched for returns. */
 typedef struct search {
     const fst_family *family; /* with no free parameter */
     fst_model *model;
     fst_flow *flow;
-    double section[3][FST_STATE_SIZE]; /* the latest passages of X = 0, on the side Y > 0 (images under S2);
-                                          where the magnet has not that symmetry, on either side */
+    /* The latest passages of X = 0, on the side Y > 0 (images under S2); where the magnet has not that symmetry, on
+     * either side. */
+    double section[2 * RETURNS + 1][FST_STATE_SIZE];
     double section_time[3];
     int section_is_image; /* the latest is one: the bead was on the side Y < 0 */
     int in_the_air;       /* the bead flew over X = 0, and the state is that of its landing instead */
@@ -226,7 +227,7 @@ static int take_passage(search *s, int half, double y[FST_STATE_SIZE], double t)
     s->section_is_image = half < 0 && s->model->has_s2;
     if (s->section_is_image)
         fst_apply_s2(y, y);
-    memmove(s->section[1], s->section[0], 2 * sizeof s->section[0]);
+    memmove(s->section[1], s->section[0], 2 * RETURNS * sizeof s->section[0]);
     memmove(s->section_time + 1, s->section_time, 2 * sizeof s->section_time[0]);
     memcpy(s->section[0], y, FST_STATE_SIZE * sizeof *y);
     s->section_time[0] = t;
@@ -296,6 +297,9 @@ static const char *advice(fst_orbit_outcome outcome)
 {
     if (outcome == FST_ORBIT_ROLLS)
         return "Try another start, or friction.rolling_resistance, which selects";
+    if (outcome == FST_ORBIT_SEVERAL)
+        return "fst_branch_follow() follows those born where the period doubles, if the range reaches to where "
+               "one return closes";
     return outcome == FST_ORBIT_UNSETTLED
                ? "Try a longer run.periods or another start; fst_lyapunov_find() tells whether the motion is "
                  "chaotic"
@@ -329,10 +333,27 @@ static fst_status not_followed(search *s, fst_error *error)
         s->unfollowed / s->drive_period, s->model->groups.omega);
 }
 
+/* After how many returns the motion repeats, where it does after several only; 0: it does not. */
+static int closes_after(const search *s)
+{
+    for (int k = 2; k <= RETURNS && s->passages > 2 * k; ++k)
+        if (fst_state_distance(s->section[0], s->section[2 * k]) < 1e-3 * s->full_distance)
+            return k;
+    return 0;
+}
+
 static fst_status never_settled(search *s, double t_end, fst_error *error)
 {
     char motion[120];
-    s->outcome = FST_ORBIT_UNSETTLED;
+    const int returns = closes_after(s);
+    s->outcome = returns ? FST_ORBIT_SEVERAL : FST_ORBIT_UNSETTLED;
+    if (returns)
+        return fst_fail(
+            error, FST_NO_CONVERGENCE, "orbit",
+            "the bead settled within %.6g drive periods at omega = %.10g on an orbit that closes after %d "
+            "returns (to %.2g; single ones differ by %.3g), and only orbits of one return are looked for",
+            t_end / s->drive_period, s->model->groups.omega, returns,
+            fst_state_distance(s->section[0], s->section[2 * returns]), s->full_distance);
     if (isfinite(s->full_distance))
         (void)snprintf(motion, sizeof motion, "its last returns differ by %.3g (half turns: %.3g)",
                        s->full_distance, s->half_distance);

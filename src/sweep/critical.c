@@ -1,9 +1,10 @@
 /* critical.c - the critical speed: from which drive on does the bead circle against the magnet?
  *
  * Runs over the range, each from the scene's start, say where the outcome changes.  The critical speed is the lowest
- * from which on all runs circle against the magnet for at least another LASTING of the speed: what windows there are
- * below it do not last.  The border is enclosed by more runs, at each level between the highest speed that fails and the
- * lowest that does not, because outcomes may alternate there.  Where the friction is smooth, a special point of the
+ * from which on all runs that are decided circle against the magnet for at least another LASTING of the speed: what
+ * windows there are below it do not last.  An undecided run says nothing for it or against it: `until` ends below the
+ * first.  The border is enclosed by more runs, at each level between the highest speed that fails and the lowest that
+ * does not, because outcomes may alternate there.  Where the friction is smooth, a special point of the
  * counter-rotating branch within the border is the border, to many more digits. */
 #include <math.h>
 #include <stdlib.h>
@@ -201,16 +202,12 @@ static fst_status enclose(search *s, border (*find)(const search *), double tole
     return FST_OK;
 }
 
-/* The last run that circles against the magnet before one that does otherwise. */
+/* The last run that circles against the magnet before one that does otherwise or is undecided. */
 static double find_end(const search *s, size_t from)
 {
-    double end = s->all[from].value;
-    for (size_t i = from; i < s->count; ++i)
-        if (counter_rotates(s->all[i].regime))
-            end = s->all[i].value;
-        else if (s->all[i].regime != FST_REGIME_UNDECIDED)
-            break;
-    return end;
+    while (from + 1 < s->count && counter_rotates(s->all[from + 1].regime))
+        ++from;
+    return s->all[from].value;
 }
 
 /* Where outcomes alternate one by one in the first runs, from the run `at` on: the last that differs from its neighbour. */

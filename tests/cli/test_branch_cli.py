@@ -193,6 +193,17 @@ class Orbit(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assertRegex(done.stderr, r"settled on no stable orbit .* last returns differ by [0-9.e-]+ .* was tried \d+")
 
+    def test_an_orbit_of_two_returns_is_named(self):
+        """Between 13.71 and 15.22 Hz a period has doubled over this bar: no length of a run and no start leads to a single return."""
+        scene = ("bead: {radius: 1.8 mm, density: 7450 kg/m^3, remanence: 1.15 T}\nfriction: {gamma: 260 1/s}\ndrive: {frequency: 14 Hz}\n"
+                 "magnet:\n  shape: parts\n  depth: 13 mm\n"
+                 "  parts: [{kind: cuboid, centre: [0, 0, 0], size: [44 mm, 24 mm, 7 mm], remanence: [0.9 T, 0, 0]}]\n")
+        done = subprocess.run([FESTOON, "orbit", "-"], input=scene, capture_output=True, text=True, timeout=events.HANG, check=False)
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertRegex(done.stderr, r"closes after 2 returns \(to \d\S*e-\d+; single ones differ by 0\.2\d+\)")
+        self.assertIn("festoon branch --kind counter --over drive.frequency=LO:HI follows", done.stderr)
+        self.assertNotIn("Try a longer", done.stderr)
+
     def test_what_did_not_turn_regularly_has_no_returns_to_compare(self):
         done = subprocess.run([FESTOON, "orbit", "--set", "run.periods=1", "--set", "run.discard=0"],
                               capture_output=True, text=True, timeout=events.HANG, check=False)

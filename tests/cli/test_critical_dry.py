@@ -9,6 +9,15 @@ import unittest
 
 from sweep_tools import festoon
 
+ROLLS = """bead: {radius: 1.8 mm, density: 7450 kg/m^3, remanence: 1.15 T}
+friction: {gamma: 260 1/s, law: coulomb, mu: 0.22}
+run: {periods: 60, discard: 30}
+magnet:
+  shape: parts
+  depth: 13 mm
+  parts: [{kind: cuboid, centre: [0, 0, 0], size: [44 mm, 24 mm, 7 mm], remanence: [0.9 T, 0, 0]}]
+"""
+
 
 class Critical(unittest.TestCase):
     def test_dry_friction_is_enclosed_by_runs_which_alternate(self):
@@ -42,6 +51,16 @@ class Critical(unittest.TestCase):
         outcomes = [(row["regime"], row["from"]) for row in found["stretches"]]
         self.assertEqual(outcomes[:3], [("ejected", 10.25), ("counter-rotating", 10.75), ("ejected", 11.0)])
         self.assertAlmostEqual(found["value"] - found["error"], 10.5, delta=1e-12)
+
+    def test_undecided_runs_are_told(self):
+        """At 17.5 Hz the bead rolls near the axis for ever, which stays undecided; at 18 Hz it circles against the magnet."""
+        scene = tempfile.NamedTemporaryFile("w", suffix=".yaml")
+        self.addCleanup(scene.close)
+        scene.write(ROLLS)
+        scene.flush()
+        status, out, err = festoon("critical", scene.name, "--over", "drive.frequency=16Hz:18.5Hz:6", "--tolerance", "0.09")
+        self.assertEqual(status, 0, err)
+        self.assertIn("from it on, up to 17 Hz, counter-rotating; undecided runs from 17.5 to 17.5 Hz: 1\n", out)
 
 
 if __name__ == "__main__":
