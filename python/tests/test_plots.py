@@ -109,9 +109,9 @@ def test_sweep_of_one_parameter(line):
     assert set(words(ax)) == set(line.regime)
     gaps = np.flatnonzero(np.isnan(ax.lines[0].get_xdata()))
     assert gaps.tolist() == [1] and line.regime.tolist() == ["librating"] + ["counter-rotating"] * 3, "lines join runs of one regime"
-    states, far = np.array(["locked", "locked", "undecided", "undecided", "ejected"]), np.array([1, 1.2, 50, 1.3, np.nan])
-    assert np.isnan(_plot_sweeps._without_outliers(far, states)).tolist() == [False, False, True, False, True]
-    assert _plot_sweeps._without_outliers(far[2:], states[2:])[0] == 50, "where there is no motion all is drawn"
+    states, far = np.array(["locked"] * 4 + ["undecided", "undecided", "ejected"]), np.array([1, 1.2, 1.1, 1, 50, 1.3, np.nan])
+    assert np.isnan(_plot_sweeps._without_outliers(far, states)).tolist() == [False] * 4 + [True, False, True]
+    assert _plot_sweeps._without_outliers(far[2:], states[2:])[2] == 50, "where few are motions all is drawn"
     ax = line.plot("mean_r", units="scaled")
     assert np.allclose(curve(ax), [line.omega, line.mean_r], rtol=1e-12) and "ℓ" in ax.get_ylabel()
     ax = line.plot("regime")
