@@ -142,7 +142,7 @@ FST_API void fst_beads_free(fst_beads_result *result);
 typedef struct fst_beads_sample {
     double t, drive_turns; /* 1/gamma; turns of the magnet */
     int count;
-    const double *states; /* FST_BEAD_NUMBERS of each bead */
+    const double *states; /* FST_BEAD_NUMBERS of each bead; one that is gone rests in the laboratory */
     int touch_count;
     const fst_bead_touch *touches; /* contacts that are closed */
 } fst_beads_sample;

@@ -22,6 +22,7 @@
 #include "beads/select.h"
 #include "beads/setup.h"
 #include "beads/steps.h"
+#include "model/drive.h"
 
 enum { DENSE_ROW = (BEADS_DIM + 1) / 2 * 2 };
 static const double LEAST_STEPS = 20, MOST_STEPS = 1e7;
@@ -96,12 +97,26 @@ static int pressing_contacts(const beads_steps *steps, fst_bead_touch *touches)
     return count;
 }
 
+/* A bead that is gone stands since then, at rest in the laboratory, from whose axes the frame has `turned` on. */
+static void let_stand(double turned, double *bead)
+{
+    double place[3], n[3];
+    fst_drive_to_laboratory(-turned / FST_TWO_PI, bead, place);
+    fst_drive_to_laboratory(-turned / FST_TWO_PI, bead + BEADS_N, n);
+    memset(bead, 0, FST_BEAD_NUMBERS * sizeof *bead);
+    memcpy(bead, place, sizeof place);
+    memcpy(bead + BEADS_N, n, sizeof n);
+}
+
 /* Tell the sample of the numbers y at the time t. */
 static fst_status tell_sample(run *r, double t, double *y, int count, const fst_bead_touch *touches,
                               fst_error *error)
 {
+    const beads_seen seen = see(r);
     for (int i = 0; i < r->world.count; ++i) {
         double *bead = y + FST_BEAD_NUMBERS * i, *n = bead + BEADS_N;
+        if (t > seen.ejected[i]) /* never of one that is not gone: NAN */
+            let_stand(beads_frame_turned(&r->world, seen.ejected[i], t), bead);
         const double norm = sqrt(beads_dot(n, n));
         bead[2] += isnan(r->world.plate) ? 0.0 : r->world.body[i].radius;
         for (int k = 0; k < 3; ++k)

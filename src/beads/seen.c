@@ -154,8 +154,7 @@ static double mean_rate(int count, const beads_moment *from, const beads_moment 
 
 /* ------------------------------------------------------------------ what is told */
 
-/* How far the axes on which angles are counted turn from one moment to the other. */
-static double frame_turned(const beads_world *world, double from, double to)
+double beads_frame_turned(const beads_world *world, double from, double to)
 {
     if (!world->surrounded)
         return world->omega * (to - from);
@@ -165,7 +164,7 @@ static double frame_turned(const beads_world *world, double from, double to)
 /* The mean rate at which bead i of n circles in the laboratory from one moment to the other. */
 static double circled(const beads_world *world, int n, const beads_moment *from, const beads_moment *to, int i)
 {
-    return frame_turned(world, from->time, to->time) / (to->time - from->time) +
+    return beads_frame_turned(world, from->time, to->time) / (to->time - from->time) +
            mean_rate(n, from, to, ANGLE, i);
 }
 
@@ -174,7 +173,7 @@ void beads_follow_swings(const beads_seen *seen, beads_moment at[3])
     const int n = seen->world->count;
     const beads_moment *from = &at[0], *middle = &at[1];
     const double passed = seen->time - middle->time,
-                 turned = frame_turned(seen->world, middle->time, seen->time);
+                 turned = beads_frame_turned(seen->world, middle->time, seen->time);
     for (int i = 0; i < n; ++i) {
         double *swing = middle->numbers + n * (OF_BEAD + OF_GROUP) + OF_SWING * i;
         const double r = seen->r[i] - middle->numbers[n * R + i] - passed * mean_rate(n, from, middle, R, i);

@@ -16,6 +16,9 @@ typedef struct beads_seen {
     double time, impacts;
 } beads_seen;
 
+/* How far the axes on which angles are counted turn from one moment to the other. */
+double beads_frame_turned(const beads_world *world, double from, double to);
+
 /* The groups of a state, followed over the time after it. */
 typedef struct beads_groups {
     int count, *members;

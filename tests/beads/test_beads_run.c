@@ -5,6 +5,7 @@
  * labels: numbers */
 #include <festoon/beads.h>
 
+#include "base/constants.h"
 #include "physics.h"
 
 static const double EPS = 2.5 / 23;
@@ -312,6 +313,59 @@ static void test_no_state_found(void **unused)
     CHECK_CONTAINS(r->reason, "crowded: at t = 0 no consistent state was found of ");
 }
 
+/* Behind the time `since` bead 1 should stand in the laboratory; by how much samples are ever off that. */
+typedef struct stand {
+    double since, place_and_n[6], worst;
+    int turning, count;
+} stand;
+
+static void place_and_moment(const double *bead, double angle, double lab[6])
+{
+    const double c = cos(angle), s = sin(angle);
+    for (int k = 0; k < 2; ++k) {
+        const double *v = bead + 6 * k;
+        lab[3 * k] = c * v[0] - s * v[1];
+        lab[3 * k + 1] = s * v[0] + c * v[1];
+        lab[3 * k + 2] = v[2];
+    }
+}
+
+static fst_status watch_stand(void *user, const fst_beads_sample *sample, fst_error *error)
+{
+    static const double rest[3] = {0};
+    stand *s = user;
+    const double *bead = sample->states;
+    double lab[6];
+    (void)error;
+    if (sample->t <= s->since)
+        return FST_OK;
+    place_and_moment(bead, s->turning ? FST_TWO_PI * sample->drive_turns : 0, lab);
+    s->worst = fmax(s->worst, greatest_difference(lab, s->place_and_n, 6));
+    s->worst = fmax(s->worst, greatest_difference(bead + 3, rest, 3));
+    s->worst = fmax(s->worst, greatest_difference(bead + 9, rest, 3));
+    ++s->count;
+    return FST_OK;
+}
+
+/* In samples a bead that is gone stands where it went, on axes that turn, by either method, and on the laboratory's. */
+static void check_stands(fst_params beads[2], fst_beads_options options)
+{
+    for (int i = 0; i < 3; ++i) {
+        stand s = {.turning = i < 2};
+        options.method = i == 1 ? FST_BEADS_STEPPING : FST_BEADS_EXACT;
+        options.sample = NULL;
+        beads[0].world_frame = beads[1].world_frame = i < 2 ? FST_FRAME_TURNING : FST_FRAME_LABORATORY;
+        const fst_beads_result *r = result_of(beads, 2, &options);
+        s.since = r->beads[0].ejected_at;
+        place_and_moment(r->beads[0].final_state, s.turning ? r->omega * s.since : 0, s.place_and_n);
+        options.sample = watch_stand;
+        options.user = &s;
+        (void)result_of(beads, 2, &options);
+        assert_true(s.since > 0 && s.since < 1 && s.count > 100);
+        CHECK_CLOSE(s.worst, 0, 1e-12);
+    }
+}
+
 /* A plate that ends before the bead's orbit: it is ejected, the other, nearer to the axis, goes on. */
 static void test_ejected(void **unused)
 {
@@ -338,6 +392,7 @@ static void test_ejected(void **unused)
     assert_true(isnan(r->beads[1].ejected_at) && r->beads[1].mean_r > 0.3 && r->group_count == 1);
     CHECK_CONTAINS(r->reason, "bead 1 passed the plate's edge");
     CHECK_CLOSE(r->energy_residual, 0, 1e-9);
+    check_stands(beads, options);
 }
 
 /* chi follows from the moment of a bead of 1.2 T where nothing says another one. */
