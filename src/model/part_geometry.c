@@ -6,6 +6,7 @@
 
 #include "base/constants.h"
 #include "model/model.h"
+#include "model/waveform.h"
 
 /* Half the extent of a part along a direction of the magnet's frame, a unit vector. */
 static double reach(const fst_magnet_part *part, const double direction[3])
@@ -243,23 +244,44 @@ static fst_magnet_part turned(const fst_magnet_part *part, double degrees)
     return now;
 }
 
+/* The least and the greatest angle of the magnet, in degrees, of those in a turn about 0. */
+static void turns_from_to(const fst_params *p, double turn[2])
+{
+    const fst_groups units = {.time_unit = 1.0, .length_unit = 1.0};
+    const int kind = p->drive_waveform;
+    fst_waveform wave;
+    turn[1] = kind == FST_WAVEFORM_OSCILLATING                            ? p->drive_amplitude
+              : kind == FST_WAVEFORM_STEADY || kind == FST_WAVEFORM_CHIRP ? 180.0
+                                                                          : 0.0;
+    turn[0] = -turn[1];
+    if (kind == FST_WAVEFORM_TABLE && fst_make_waveform(p, &units, &wave, NULL) == FST_OK) {
+        turn[0] = INFINITY;
+        turn[1] = -INFINITY;
+        for (int i = 0; i < wave.count; ++i) {
+            turn[0] = fmin(turn[0], wave.angles[i] * 360.0 / FST_TWO_PI);
+            turn[1] = fmax(turn[1], wave.angles[i] * 360.0 / FST_TWO_PI);
+        }
+    }
+    const int whole = !(turn[1] - turn[0] < 360.0);
+    const double half = whole ? 180.0 : 0.5 * (turn[1] - turn[0]);
+    const double middle = whole ? 0.0 : remainder(0.5 * turn[0] + 0.5 * turn[1], 360.0);
+    turn[0] = middle - half;
+    turn[1] = middle + half;
+}
+
 /* Whether a part that turns meets one that stands still, and by how many degrees the magnet has turned then.  What is
  * round about the axis does at any angle or at none. */
-static int meet_in_a_turn(const fst_params *p, const fst_magnet_part *one, const fst_magnet_part *other,
-                          int *angle)
+static int meet_in_a_turn(const double turn[2], const fst_magnet_part *one, const fst_magnet_part *other,
+                          double *angle)
 {
     static const double up[3] = {0, 0, 1};
     const fst_magnet_part *moving = one->motion == FST_PART_TURNING ? one : other,
                           *still = moving == one ? other : one;
-    const double most = p->drive_waveform == FST_WAVEFORM_STEADY || p->drive_waveform == FST_WAVEFORM_CHIRP
-                            ? 180.0
-                        : p->drive_waveform == FST_WAVEFORM_OSCILLATING ? fmin(p->drive_amplitude, 180.0)
-                                                                        : 0.0;
     if (moving->motion == still->motion ||
         fabs(one->centre[2] - other->centre[2]) > reach(one, up) + reach(other, up))
         return 0;
-    for (int i = 0; i <= 2 * (int)(most / LOOKED_AT); ++i) {
-        *angle = LOOKED_AT * (i % 2 ? -(i + 1) / 2 : i / 2);
+    for (int i = 0; i <= 2 * (int)ceil(fmax(-turn[0], turn[1]) / LOOKED_AT); ++i) {
+        *angle = fmax(turn[0], fmin((i % 2 ? -LOOKED_AT : LOOKED_AT) * ((i + 1) / 2), turn[1]));
         const fst_magnet_part now = turned(moving, *angle);
         if (fst_parts_overlap(&now, still))
             return 1;
@@ -346,14 +368,16 @@ static int may_overlap(const fst_params *p, int a, int b)
 /* The first two parts that meet while the magnet turns. */
 static int meet(const fst_params *p, char *sentence, size_t size)
 {
-    int angle;
+    double angle, turn[2];
+    turns_from_to(p, turn);
     for (int a = 0; a < p->magnet_part_count && p->magnet_shape == FST_MAGNET_PARTS; ++a)
         for (int b = a + 1; b < p->magnet_part_count; ++b)
-            if (!may_overlap(p, a, b) && meet_in_a_turn(p, &p->magnet_parts[a], &p->magnet_parts[b], &angle)) {
+            if (!may_overlap(p, a, b) &&
+                meet_in_a_turn(turn, &p->magnet_parts[a], &p->magnet_parts[b], &angle)) {
                 (void)snprintf(sentence, size,
                                "magnet.parts[%d] and magnet.parts[%d], of which one turns and the other stands "
                                "still, meet "
-                               "where the magnet has turned by %d degrees (looked at every %d)",
+                               "where the magnet has turned by %.4g degrees (looked at every %d)",
                                a, b, angle, LOOKED_AT);
                 return 1;
             }

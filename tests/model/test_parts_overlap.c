@@ -178,14 +178,24 @@ static void what_turns_meets_what_stands_still(void **unused)
     static const struct {
         double pin[3], amplitude; /* 0: it turns on */
         int told;
-    } cases[] = {{{0, 22e-3, 0}, 0, 1},  {{0, 22e-3, 8e-3}, 0, 0}, {{0, 24e-3, 0}, 0, 0},
-                 {{0, 22e-3, 0}, 60, 0}, {{0, 22e-3, 0}, 90, 1},   {{0, -15e-3, 4e-3}, 0, 1}};
+        const char *table; /* NULL: none */
+    } cases[] = {{{0, 22e-3, 0}, 0, 1, NULL},         {{0, 22e-3, 8e-3}, 0, 0, NULL},
+                 {{0, 24e-3, 0}, 0, 0, NULL},         {{0, 22e-3, 0}, 60, 0, NULL},
+                 {{0, 22e-3, 0}, 90, 1, NULL},        {{0, -15e-3, 4e-3}, 0, 1, NULL},
+                 {{0, 22e-3, 0}, 77, 0, NULL},        {{0, 22e-3, 0}, 80, 1, NULL},
+                 {{0, 22e-3, 0}, 0, 1, "0:0 1:360"},  {{0, 22e-3, 0}, 0, 0, "0:0 1:60"},
+                 {{0, 22e-3, 0}, 0, 1, "0:0 1:-80"},  {{0, 22e-3, 0}, 0, 1, "0:410 1:450"},
+                 {{0, 22e-3, 0}, 0, 0, "0:110 1:250"}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
         fst_params params = fst_default_params();
         char sentence[256] = "";
         params.magnet_shape = FST_MAGNET_PARTS;
         params.magnet_part_count = 2;
-        params.drive_waveform = cases[k].amplitude > 0 ? FST_WAVEFORM_OSCILLATING : FST_WAVEFORM_STEADY;
+        params.drive_waveform = cases[k].table           ? FST_WAVEFORM_TABLE
+                                : cases[k].amplitude > 0 ? FST_WAVEFORM_OSCILLATING
+                                                         : FST_WAVEFORM_STEADY;
+        if (cases[k].table)
+            (void)snprintf(params.drive_table, sizeof params.drive_table, "%s", cases[k].table);
         params.drive_amplitude = cases[k].amplitude;
         fst_magnet_part *bar = &params.magnet_parts[0], *pin = &params.magnet_parts[1];
         *bar = (fst_magnet_part){.kind = FST_PART_CUBOID, .size = {5e-3, 40e-3, 5e-3}, .remanence = {1, 0, 0}};
