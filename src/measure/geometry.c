@@ -127,7 +127,7 @@ int measure_angular_row(const measure_work *work, size_t i, double *row)
     int n = harmonic_row(work, i, row);
     const double turned = FST_TWO_PI * work->bead * work->t[i];
     /* A shutter that rolls shows some sides of a circle later than others: over a part of a turn that looks like a rate. */
-    if (!(work->f0 > 0) && fabs(work->bead) * measure_duration(work) > LEAST_TURNS) {
+    if (work->rolls) {
         row[n++] = cos(turned);
         row[n++] = sin(turned);
     }
@@ -440,6 +440,7 @@ fst_status measure_refine_motion(measure_work *work, fst_error *error)
     work->radial = (measure_regression){.columns = 0};
     if (work->f0 > 0)
         choose_harmonics(work);
+    work->rolls = !(work->f0 > 0) && fabs(work->bead) * measure_duration(work) > LEAST_TURNS;
     double row[MEASURE_MOST_COLUMNS];
     /* The model of alpha so far has other columns: keep its line, drop the rest. */
     const double phase = work->angular.coefficient[0], rate = work->bead;

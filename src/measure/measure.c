@@ -141,7 +141,7 @@ static void widen_for_exposure(const measure_work *work, const measure_drive *dr
         return;
     }
     const double *c = work->angular.coefficient + 1; /* the path's bends, whose blur shortens the mean radius */
-    const double bends = 0.5 * fst_dot(c, c, work->angular.columns - 2);
+    const double bends = work->rolls ? 0.0 : 0.5 * fst_dot(c, c, work->angular.columns - 2);
     measured->std_r_error = hypot(measured->std_r_error, apart * measured->std_r);
     measured->mean_r_error = hypot(measured->mean_r_error, apart * bends * measured->mean_r);
 }

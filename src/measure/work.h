@@ -43,6 +43,7 @@ typedef struct measure_work {
     int followed;  /* alpha is unwrapped from place to place: no step is large */
     double bead;   /* turns of the bead in a unit of t, counter-clockwise positive, as filmed */
     double f0;     /* the frequency of which r has the harmonics; 0: r does not oscillate */
+    int rolls;     /* the model of alpha has the columns of a shutter that rolls */
     int harmonics; /* how many are fitted */
     int skipped[MEASURE_HARMONICS]; /* 0: the harmonic can be seen; 1: the frame rate hides it; 1 + k: it shows
                                        it in the place of the k-th */
