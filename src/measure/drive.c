@@ -303,11 +303,15 @@ static int by_drive(measure_work *work, double drive, int filmed, measure_drive 
                     fst_measurement *measured)
 {
     const match m = work->peak > 0 ? best_match(work, drive, filmed) : (match){0, filmed, INFINITY, 0.0};
+    const char *const sense = work->bead > 0 ? "counter-clockwise" : "clockwise";
     if (goes_with(work, drive) && (filmed > 0 || !(m.miss < 1.0))) {
         *found = (measure_drive){.motion = FST_MOTION_LOCKED, .relative = 1, .radial = NAN};
         if (filmed < 0)
-            measure_warn(measured, "the bead goes round at the magnet's rate, but clockwise: the film is "
-                                   "mirrored, or the magnet turns clockwise (then give the drive a minus)");
+            measure_warn(
+                measured,
+                "the bead goes round at the magnet's rate, but %s: the film is mirrored, or the magnet "
+                "turns %s (then give the drive %s a minus)",
+                sense, sense, work->bead > 0 ? "without" : "with");
         return 1;
     }
     if (!(m.miss < 1.0))
