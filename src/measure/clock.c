@@ -2,7 +2,8 @@
  *
  * What a phone exports of slow motion is slowed in its middle: there the frames are farther apart by the film's clock, but
  * the bead goes as far from frame to frame as elsewhere.  Such a clock tells no rates; frames do.  A clock that jitters, lost
- * frames, and a camera that takes fewer frames for a while are right, and by them the bead is as fast everywhere.
+ * frames, and a camera that takes fewer frames for a while are right, and by them the bead is as fast everywhere, or it rests
+ * in some parts, and goes farther from frame to frame in others.
  */
 #include "measure/work.h"
 
@@ -42,19 +43,26 @@ static size_t mark_parts(const fst_track *track, double usual, unsigned char *ap
     return marked;
 }
 
-/* The median of steps (of speeds) within these parts, or without them. */
-static double median_of(const fst_track *track, const unsigned char *apart, int within, int speeds,
-                        double *room)
+enum { STEP, SPEED, WAY }; /* s a frame; length a s; length a frame */
+
+/* The median of one of these within these parts, or without them. */
+static double median_of(const fst_track *track, const unsigned char *apart, int within, int what, double *room)
 {
     size_t count = 0;
     for (size_t i = 0; i + 1 < track->rows; ++i) {
-        if (apart[i] != within || (speeds && (isnan(track->x[i]) || isnan(track->x[i + 1]))))
+        if (apart[i] != within || (what != STEP && (isnan(track->x[i]) || isnan(track->x[i + 1]))))
             continue;
-        const double step = step_at(track, i);
+        const double step = step_at(track, i), time = track->t[i + 1] - track->t[i];
         const double way = hypot(track->x[i + 1] - track->x[i], track->y[i + 1] - track->y[i]);
-        room[count++] = speeds ? way / (track->t[i + 1] - track->t[i]) : step;
+        room[count++] = what == STEP ? step : what == SPEED ? way / time : way / time * step;
     }
     return fst_median(room, count);
+}
+
+/* Whether one of these differs between these parts and the others. */
+static int parts_differ(const fst_track *track, const unsigned char *apart, int what, double *room)
+{
+    return differ(median_of(track, apart, 0, what, room), median_of(track, apart, 1, what, room));
 }
 
 fst_status measure_forget_slowed_clock(fst_track *track, fst_measurement *measured, fst_error *error)
@@ -68,11 +76,11 @@ fst_status measure_forget_slowed_clock(fst_track *track, fst_measurement *measur
         free(apart);
         return fst_fail(error, FST_NO_MEMORY, "", "no memory for a track of %zu frames", track->rows);
     }
-    const double steps = (double)(track->rows - 1), usual = median_of(track, apart, 0, 0, room);
+    const double steps = (double)(track->rows - 1), usual = median_of(track, apart, 0, STEP, room);
     if ((double)mark_parts(track, usual, apart) > LEAST_SHARE * steps &&
-        differ(median_of(track, apart, 0, 1, room), median_of(track, apart, 1, 1, room))) {
-        const double one = 1e3 * median_of(track, apart, 0, 0, room);
-        const double other = 1e3 * median_of(track, apart, 1, 0, room);
+        parts_differ(track, apart, SPEED, room) && !parts_differ(track, apart, WAY, room)) {
+        const double one = 1e3 * median_of(track, apart, 0, STEP, room);
+        const double other = 1e3 * median_of(track, apart, 1, STEP, room);
         measure_warn(measured,
                      "the film is slowed in parts: its frames are %.3g ms apart in some and %.3g ms in others, "
                      "but the bead goes as far from frame to frame; its clock is not used: give the frame rate",

@@ -402,6 +402,22 @@ class Readings(Program):
                      timed([s * (0.7 + 0.6 * chance.random()) for s in even]),
                      timed([s * (0.4 if i % 2 else 1.6) for i, s in enumerate(even)])):
             self.assertNotIn("slowed", " ".join(self.measured(text)["warnings"]))
+        # a bead that rests in dim light, of which the camera takes fewer frames, and circles in the light
+        resting = [(tracks.R0 + chance.gauss(0, 0.05), chance.gauss(0, 0.05)) for _ in range(60)]
+        lines = tracks.own(resting + tracks.places(fps=60.0, seconds=15.0)).splitlines()
+        found = self.measured(timed([1 / 30] * 60 + [1 / 60] * 899))
+        self.assertNotIn("slowed", " ".join(found["warnings"]))
+        self.assertIsNotNone(found["fps"])
+
+    def test_sense_of_a_locked_bead(self):
+        """A bead that has the magnet's rate and the other sense: how it goes round, and with which sign the drive would agree."""
+        for sense, drive, told in ((1, "-3.2Hz", "counter-clockwise (then give the drive without a minus)"),
+                                   (-1, "3.2Hz", "clockwise (then give the drive with a minus)")):
+            text = tracks.own(tracks.places(sense=sense, swing=0.0))
+            self.assertIn(f"but {told.split(' ', 1)[0]}: the film is mirrored, or the magnet turns {told}",
+                          " ".join(self.measured(text, "--drive", drive)["warnings"]))
+            other = drive[1:] if sense > 0 else "-" + drive
+            self.assertNotIn("mirrored", " ".join(self.measured(text, "--drive", other)["warnings"]))
 
     def test_folded_line_without_a_drive(self):
         """17.2 Hz at 30 frames a second look like 12.8 Hz: both readings are told, and neither is a result."""
