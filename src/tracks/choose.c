@@ -251,6 +251,8 @@ static fst_status set_clock(const choice *c, track_spot *spots, size_t count, fs
     double unevenness = 0.0;
     track->fps = timed && count > 1 ? clock_of(spots, count, &unevenness) : 1.0 / (c->raw->interval * c->step);
     track->steady = unevenness < 0.1;
+    if (unevenness >= 0.1) /* the line is that of even frames */
+        track->fps = (spots[count - 1].frame - spots[0].frame) / (spots[count - 1].t - spots[0].t);
     if (isfinite(c->options->fps)) {
         if (!(c->options->fps > 0))
             return fst_fail(error, FST_BAD_INPUT, "fst_track_options.fps",

@@ -152,6 +152,17 @@ class Formats(Measure):
                 found, _ = self.measured(text, *(() if clock else ("--fps", "240")))
                 self.assertEqual((found["lost"], found["frames"]), (gap, len(self.ROWS)), (gap, clock))
 
+    def test_an_uneven_clock_is_told_on_average(self):
+        head, *rows = tracks.own(self.ROWS).splitlines()
+        clock, slowed = 0.0, []
+        for i, row in enumerate(rows):
+            cells = row.split(",")
+            slowed.append(",".join([cells[0], f"{clock:.7f}", *cells[2:]]))
+            clock += (8 if 300 <= i < 500 else 1) / 240
+        last = float(slowed[-1].split(",")[1])
+        said = self.run_measure("\n".join([head, *slowed]) + "\n").stderr
+        self.assertIn(f"{(len(rows) - 1) / last:.6g} frames a second on average, unevenly", said)
+
     def test_a_range_of_frames(self):
         """--from and --to take what an excerpt of the file has."""
         lines = tracks.own(self.ROWS).splitlines()
