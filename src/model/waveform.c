@@ -14,6 +14,8 @@
 #include "base/error.h"
 #include "base/number.h"
 
+#define MOST_DEGREES 1e6 /* as many as drive.amplitude may have */
+
 static fst_status bad_table(fst_error *error, const char *at)
 {
     return fst_fail(
@@ -43,6 +45,11 @@ static fst_status read_table(const char *text, double gamma, fst_waveform *wave,
         if (!read_number(&text, &time) || *text++ != ':' || !read_number(&text, &angle) ||
             (*text && !isspace((unsigned char)*text)))
             return bad_table(error, row);
+        if (fabs(angle) > MOST_DEGREES)
+            return fst_fail(
+                error, FST_BAD_INPUT, "drive.table",
+                "drive.table turns too far in the row \"%.40s\": by %g degrees to either side at most", row,
+                MOST_DEGREES);
         const int n = wave->count;
         if (n > 0 && !(time * gamma > wave->times[n - 1]))
             return fst_fail(

@@ -118,7 +118,7 @@ fst_status world_strobe_find(world_strobe *s, const fst_params *params, const do
     return found == FST_NO_CONVERGENCE ? fst_fail(error, found, "orbit", "%s: %s", why.sentence,
                                                   carried ? "a bead that a wave carries along, as most waves "
                                                             "do, never comes back to where it was; "
-                                                            "festoon run tells its velocity"
+                                                            "a run tells its velocity"
                                                           : "make run.discard larger, or choose another start")
            : found != FST_OK           ? fst_fail(error, found, why.where, "%s", why.sentence)
                                        : FST_OK;

@@ -201,6 +201,7 @@ class Fields(Case):
                 ([*IN_TESLA, "--set", "coils[0].radius=5 cm", "--set", "world.frame=turning"], "is not a frame"),
                 (sets(drive__waveform="table"), "two rows"),
                 (sets(drive__waveform="table", drive__table="0:0 1:90 0.5:90"), "goes back in time"),
+                (sets(drive__waveform="table", drive__table="0:0 1:1e308"), "by 1e+06 degrees"),
                 (sets(drive__waveform="table", drive__table="0:0 later"), "not a row of time"),
                 (sets(drive__waveform="wave"), "wave.length and wave.amplitude"),
                 (sets(drive__waveform="sine"), "choose one of steady"),

@@ -49,6 +49,7 @@ export default {
         frame: "in turning bleibt {key} nicht, wie es ist: laboratory oder auto wählen",
         tableRow: "„{text}“ ist keine Zeile aus Zeit (s) und Winkel (Grad) wie etwa {example}; Leerzeichen trennen die Zeilen: {rows}",
         tableBack: "drive.table geht in der Zeit zurück: Die Zeile „{text}“ ist nicht später als die vor ihr",
+        tableFar: "drive.table dreht in der Zeile „{text}“ zu weit: höchstens {n} Grad nach jeder Seite",
         tableShort: "table braucht drive.table mit mindestens zwei Zeilen aus Zeit (s) und Winkel (Grad), zum Beispiel {example}",
         groups: "die skalierten Größen liegen außerhalb des Bereichs: kappa = {kappa}, omega = {omega}, h = {h}",
         stepping: "exact nimmt höchstens {n} Kugeln, und die Szene enthält {all}: stepping wählen",

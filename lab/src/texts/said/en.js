@@ -54,6 +54,7 @@ export default {
         frame: "turning is not a frame in which {key} stays what it is: choose laboratory, or auto",
         tableRow: "\"{text}\" is not a row of time (s) and angle (degrees), such as {example}; rows are parted by spaces: {rows}",
         tableBack: "drive.table goes back in time: the row \"{text}\" is not later than the one before it",
+        tableFar: "drive.table turns too far in the row \"{text}\": by {n} degrees to either side at most",
         tableShort: "table needs drive.table with two rows of time (s) and angle (degrees) at least, such as {example}",
         groups: "the scaled groups are out of range: kappa = {kappa}, omega = {omega}, h = {h}",
         stepping: "exact takes at most {n} beads, and the scene lists {all}: choose stepping",

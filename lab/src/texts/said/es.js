@@ -49,6 +49,7 @@ export default {
         frame: "turning no es un sistema en el que {key} siga siendo lo que es: elige laboratory o auto",
         tableRow: "«{text}» no es una fila de tiempo (s) y ángulo (grados), como {example}; las filas se separan con espacios: {rows}",
         tableBack: "drive.table retrocede en el tiempo: la fila «{text}» no es posterior a la anterior",
+        tableFar: "drive.table gira demasiado en la fila «{text}»: como mucho {n} grados a cada lado",
         tableShort: "table necesita drive.table con al menos dos filas de tiempo (s) y ángulo (grados), como {example}",
         groups: "las magnitudes escaladas están fuera de su intervalo: kappa = {kappa}, omega = {omega}, h = {h}",
         stepping: "exact admite como mucho {n} bolas, y la escena enumera {all}: elige stepping",

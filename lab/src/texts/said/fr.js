@@ -49,6 +49,7 @@ export default {
         frame: "turning n’est pas un repère où {key} reste ce qu’il est : choisissez laboratory ou auto",
         tableRow: "« {text} » n’est pas une ligne de temps (s) et d’angle (degrés), comme {example} ; des espaces séparent les lignes : {rows}",
         tableBack: "drive.table recule dans le temps : la ligne « {text} » n’est pas plus tardive que la précédente",
+        tableFar: "drive.table tourne trop loin à la ligne « {text} » : {n} degrés au plus de chaque côté",
         tableShort: "table demande drive.table avec au moins deux lignes de temps (s) et d’angle (degrés), comme {example}",
         groups: "les grandeurs réduites sortent du domaine permis : kappa = {kappa}, omega = {omega}, h = {h}",
         stepping: "exact prend au plus {n} billes, et la scène en énumère {all} : choisissez stepping",

@@ -49,6 +49,7 @@ export default {
         frame: "在 turning 参考系中 {key} 不会保持不变：请选择 laboratory 或 auto",
         tableRow: "“{text}”不是一行时间 (s) 和角度（度），应形如 {example}；各行用空格隔开：{rows}",
         tableBack: "drive.table 的时间倒退了：“{text}”这一行不比前一行晚",
+        tableFar: "drive.table 的行“{text}”转得太远：每侧最多 {n} 度",
         tableShort: "table 需要 drive.table 至少有两行时间 (s) 和角度（度），例如 {example}",
         groups: "约化量超出范围：kappa = {kappa}, omega = {omega}, h = {h}",
         stepping: "exact 最多计算 {n} 个小球，而场景列出了 {all} 个：请选择 stepping",
