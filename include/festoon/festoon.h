@@ -451,8 +451,9 @@ FST_API fst_groups fst_model_groups(const fst_model *model);
 
 /* A model of which only the field is asked, with a bead's force and load in it, at the height `height` (l) over
  * the magnet's reference plane; NAN: at that of a bead on the plate, as fst_model_new() has it.  It may lie
- * below the plate, beside parts of the magnet; in or on one, which fst_field_inside() finds, no field is told.  Where more than a turning magnet makes a field (fst_key_of_surroundings()), it is that of all, at the
- * time 0, as fst_field_at() tells it. */
+ * below the plate, beside parts of the magnet; in or on one, which fst_field_inside() finds, no field is told.
+ * Where more than a turning magnet makes a field (fst_key_of_surroundings()), it is that of all, at the time 0, as
+ * fst_field_at() tells it. */
 FST_API fst_status fst_field_model_new(const fst_params *params, double height, fst_model **model,
                                        fst_error *error);
 
@@ -472,8 +473,8 @@ FST_API fst_status fst_start_state(const fst_params *params, const fst_model *mo
 
 /* The field at the height of the bead's centre, in the magnet's frame (at the time 0 the laboratory's): b[3],
  * grad[i][j] = dB_i/dx_j (traceless, and symmetric but for the curl that a measured field has), scaled; NAN beyond
- * the samples of a map, in or on a part of the magnet, or where no bead's centre can be in a bowl.  Paper, section IV: lines of dipoles, each two
- * point charges, Eq. (11). */
+ * the samples of a map, in or on a part of the magnet, or where no bead's centre can be in a bowl.  Paper, section
+ * IV: lines of dipoles, each two point charges, Eq. (11). */
 FST_API void fst_field(const fst_model *model, double x, double y, double b[3], double grad[3][3]);
 
 /* The part of the magnet in or on which that place lies, -1 if none; at the time of the model (fst_field_model_at()). */

@@ -35,7 +35,8 @@ static const option options[] = {
     {NULL, '\0', NULL, NULL},
 };
 
-/* Refuse the options that say nothing of such a file: `words` has those that do beside those of every figure, a|b|c. */
+/* Refuse the options that play no part for such a file.  `words` lists those that do, as a|b|c, beside those that every
+ * figure takes. */
 static fst_status refuse_others(const arguments *given, const char *words, const char *what, fst_error *error)
 {
     for (int i = 0; i < given->option_count; ++i) {

@@ -43,7 +43,7 @@ void fst_sweep_choice_tics(const fst_sweep_axis *axis, char *tics, size_t size);
  * where the values of `key` are numbers. */
 int fst_sweep_result_tics(const char *key, char *tics, size_t size);
 
-/* Of the words of ordinates, leave those that occur. */
+/* Take away the words at the ordinates of which no point has the value. */
 void fst_sweep_trim_words(fst_chart *chart);
 
 /* The names that are the values of a key, with colours of their own; NULL: they are others, or numbers. */

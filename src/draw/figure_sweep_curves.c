@@ -286,8 +286,8 @@ static int by_place(const void *a, const void *b)
 }
 
 /* Choose which points of a slice are drawn.  They are sorted along the axis, because a random axis or a list has them in any
- * order; a refined sweep has only those that were computed; and each n-th is taken, so that there are at most MOST_POINTS,
- * because a figure shows no more.  Returns n; 0: no memory. */
+ * order.  A refined sweep has only those that were computed.  Of many points each n-th is taken, at most MOST_POINTS, because a
+ * figure shows no more.  Returns n; 0: no memory. */
 static size_t choose_points(drawing *d, const fst_sweep_slice *slice)
 {
     const fst_grid *grid = d->table->grid;

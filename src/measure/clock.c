@@ -1,9 +1,9 @@
 /* clock.c - films that are slowed in parts.
  *
  * What a phone exports of slow motion is slowed in its middle: there the frames are farther apart by the film's clock, but
- * the bead goes as far from frame to frame as elsewhere.  Such a clock tells no rates; frames do.  A clock that jitters, lost
- * frames, and a camera that takes fewer frames for a while are right, and by them the bead is as fast everywhere, or it rests
- * in some parts, and goes farther from frame to frame in others.
+ * the bead goes as far from one frame to the next as elsewhere.  Rates then follow from the frames, not from such a clock.
+ * The clock is right where it only jitters, where frames are lost, and where a camera takes fewer frames for a while: by it
+ * the bead is as fast everywhere, or it rests in some parts and goes farther from one frame to the next in others.
  */
 #include "measure/work.h"
 

@@ -21,6 +21,15 @@ typedef struct view {
     REAL omega, pace, y[FST_STATE_SIZE], f[FST_STATE_SIZE];
 } view;
 
+/* What is copied whole has numbers alone: a register in the one struct for each in the other. */
+_Static_assert(sizeof(FN(modes)) == 2 * sizeof(fst_modes_double), "modes are numbers");
+_Static_assert(sizeof(FN(coulomb)) == 2 * sizeof(fst_coulomb_double), "a law is numbers");
+_Static_assert(offsetof(FN(linear), contact) == 2 * offsetof(fst_linear_double, contact),
+               "so is what is linear");
+_Static_assert(offsetof(FN(world), source) - offsetof(FN(world), eps) ==
+                   2 * (offsetof(fst_world_double, source) - offsetof(fst_world_double, eps)),
+               "and the world, but for its source");
+
 /* Each of some numbers twice. */
 static void twice(const void *from, size_t bytes, void *to)
 {

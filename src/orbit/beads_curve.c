@@ -120,16 +120,16 @@ static int is_own_image(const beads_curve *t, const beads_lock *lock)
 static fst_status end_on_the_way(beads_curve *t, fst_branch_end *end, fst_error *error)
 {
     char reason[128];
-    int at_magnet;
+    int what;
     const fst_status status = locate(t, WAY, 0, error);
     if (status != FST_OK)
         return status;
-    (void)beads_way_out(&t->world, 0, t->middle.lock.state, &at_magnet);
+    (void)beads_way_out(&t->world, 0, t->middle.lock.state, &what);
     (void)snprintf(reason, sizeof reason,
-                   at_magnet ? "the bead touches the magnet at %.12g"
-                             : "the bead is plate.radius away at %.12g",
+                   what == BEADS_AT_MAGNET ? "the bead touches the magnet at %.12g"
+                                           : "the bead is plate.radius away at %.12g",
                    t->middle.value);
-    set_end(end, at_magnet ? FST_END_CONTACT : FST_END_RADIUS, t->middle.value, reason);
+    set_end(end, what == BEADS_AT_MAGNET ? FST_END_CONTACT : FST_END_RADIUS, t->middle.value, reason);
     return FST_OK;
 }
 

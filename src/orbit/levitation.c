@@ -148,8 +148,8 @@ static fst_status try_from(search *s, double z, double up, fst_error *error)
     const fst_status status = beads_lock_correct(s->lapack, NULL, &s->world, &s->lock, &why);
     if (status == FST_NO_MEMORY)
         return fst_fail(error, status, "locked", "out of memory");
-    int at_magnet;
-    if (status != FST_OK || !(beads_way_out(&s->world, 0, s->lock.state, &at_magnet) > 0))
+    int what;
+    if (status != FST_OK || !(beads_way_out(&s->world, 0, s->lock.state, &what) > 0))
         return FST_OK;
     levitation_describe(&s->world, &s->groups, &s->lock, &found);
     if (is_known(s, &found))

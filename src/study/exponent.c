@@ -198,7 +198,7 @@ static void end_piece(follower *f, double length)
     f->over = 1;
 }
 
-/* One try in every lane; 0 if all are over. */
+/* Each lane tries one step.  Returns 0 if all exponents are known. */
 static int step(batch *b)
 {
     double h[FST_MOST_LANES] = {0}, errors[FST_MOST_LANES], factors[FST_MOST_LANES];
@@ -397,7 +397,7 @@ static void leave(fst_dry_exponents *b, int l)
     b->at.flows[l] = NULL;
 }
 
-/* One try in every lane; those whose beads are over. */
+/* Each lane tries one step.  Returns the lanes whose exponents are known then, one bit each. */
 static unsigned step_dry(fst_dry_exponents *b)
 {
     const fst_lane_engine *engine = b->at.engine;
@@ -459,7 +459,8 @@ void fst_dry_exponents_free(fst_dry_exponents *b)
     free(b);
 }
 
-/* The lane of a bead, an idle one where it has none yet. */
+/* The lane of a bead; where it has none yet, an idle one, which there is, because no more are asked for at a time than
+ * there are lanes. */
 static int lane_of(const fst_dry_exponents *b, const fst_exponent *asked)
 {
     int l = 0;

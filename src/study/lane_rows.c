@@ -103,7 +103,7 @@ static fst_status watch_exponents(void *user, double fraction, const char *what,
     return fst_worker_ask(user, error);
 }
 
-/* The exponents of so many parked runs, side by side too; *over: those that are known, one bit each. */
+/* Follow the exponents of the first `count` parked runs side by side.  *over: those that are known then, one bit each. */
 static fst_status follow_parked(fst_row_worker *w, int count, unsigned *over, fst_error *error)
 {
     fst_exponent *asked[FST_MOST_LANES] = {NULL};

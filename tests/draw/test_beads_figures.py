@@ -217,7 +217,7 @@ class Beads(unittest.TestCase):
                     self.assertIn(f"lc rgb '{colours[outcome]}'", script)
                     self.assertIn(f"set label '{outcome}'", script)
             else:
-                self.assertIn("set ytics ('apart' 0, 'undecided' 6)", script)  # those that occur
+                self.assertIn("set ytics ('apart' 0, 'undecided' 6)", script)  # the axis names what occurs alone
                 (_, points), = [curve for curve in curves["x y"] if curve[0] == "panel1-curve1"]
                 names = ("apart", "walker", "bar", "ring", "cluster", "ejected", "undecided")
                 self.assertEqual([names[int(y)] for piece in points for _, y in piece], found)

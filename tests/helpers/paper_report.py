@@ -254,8 +254,8 @@ class Report:
             self.assertNotRegex(text, r"\.\d*0\b|e[+-]\d", name)
 
     def test_commands_repeat_the_numbers(self):
-        """Each command of paper.json prints the number that stands beside it; the report shows the same.  With
-        FESTOON_PAPER=reduced, of those that compute one number of the paper as the paper does, every fourth."""
+        """Each command of paper.json prints the number that stands beside it; the report shows the same.
+        FESTOON_PAPER=reduced runs every fourth of the commands that compute one number by `festoon paper`, and all others."""
         shown = [html.unescape(text) for text in re.findall(r"<pre>(festoon [^<]*)</pre>", self.report)]
         cases = [(s, prefix, dynamics) for s in self.paper["statements"]
                  for prefix, dynamics in (("", "farago2020"), ("rigid_", "rigid"), ("coulomb_", "coulomb"))
