@@ -388,10 +388,11 @@ static void land(fst_dry_exponents *b, int l)
     go_on(b, l);
 }
 
-/* The bead of a lane is done with. */
+/* The bead of a lane is done with.  As in follow_dry(), evaluations that led to nothing do not count. */
 static void leave(fst_dry_exponents *b, int l)
 {
-    b->followers[l].asked->rhs_calls = b->at.flows[l]->rhs_calls;
+    if (!b->followers[l].asked->failed)
+        b->followers[l].asked->rhs_calls = b->at.flows[l]->rhs_calls;
     b->at.engine->release(b->at.memory, l);
     fst_flow_free(b->at.flows[l]);
     b->at.flows[l] = NULL;
