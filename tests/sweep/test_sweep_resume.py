@@ -155,6 +155,8 @@ class Resuming(Measured):
                 self.assertIn(b"the same command goes on", err)
                 done = int(re.search(rb"interrupted with (\d+) of 12", err).group(1))
                 self.assertEqual(events.rows(path), done)  # all that was finished
+                if done == 12:
+                    return False  # the signal came behind the last run, when there is no table of runs in flight any more
                 # Every run that was not is there as it was when the signal came.
                 self.assertEqual(done + events.ask(path, "SELECT count(*) FROM checkpoints"), 12)
                 self.good(*long_runs(periods), path)
